@@ -101,8 +101,9 @@ module gapbeam_path_tolerances
     real(wp), parameter :: far_from_zero = 2.0_wp**16
     !> Rounding errors within which another breakpoint is at zero too; tuned. Read by continuation/region_responses
     real(qp), parameter :: near_breakpoint = 2.0_qp**10
-    !> Share of the rates beside it below which a rate is none, in quadruple precision. Read by continuation/region_responses
-    real(qp), parameter :: no_rate = 2.0_qp**(-70)
+    !> Share of the greatest rate of the beam below which a rate is none, in quadruple precision: refined, what is at rest is off
+    !> by the square of a rounding, times a condition number. Read by continuation/region_responses
+    real(qp), parameter :: no_rate = 2.0_qp**(-140)
     !> What happens so near to each other, relative to the factor or the way, happens at the same factor. Read by
     !> continuation/path, continuation/stretch
     real(wp), parameter :: same_factor = 1e-15_wp

@@ -4,7 +4,7 @@ module gapbeam_region_responses
     use gapbeam_path_tolerances, only: near_breakpoint, no_rate
     use gapbeam_band_quad, only: band_ok, count_unstable_pivots
     use gapbeam_polyline_quad, only: piece_that_acts, vertical_pieces
-    use gapbeam_law_margins_quad, only: is_watched_in
+    use gapbeam_law_margins_quad, only: is_watched_in, margin_rates
     use gapbeam_model_quad, only: beam_type, last_place
     use gapbeam_system_quad, only: solve_and_refine
     use gapbeam_pivoting_quad, only: count_unstable
@@ -109,11 +109,28 @@ contains
     pure subroutine find_responses(beam, responses)
         type(beam_type), intent(in) :: beam
         type(responses_type), intent(inout) :: responses
-        integer :: k
+        !> Greatest rates of what moves, of forces (or couples) that hold it, and of both at a support; slope of its piece
+        real(wp) :: moves(2), holds(2), rate, slope, level
+        integer :: k, kind
+        logical :: by_force
 
-        do k = 1, size(responses%closed)
-            responses%response(k) = response_of(beam, responses%closed, k, responses%lines_type)
-        end do
+        associate (live => responses%live, links => beam%links)
+            moves(1) = maxval(abs(live%answers(0:size(links))%deflection))
+            moves(2) = moves(1)*maxval(links%inverse) + maxval(live%turn_size)
+            holds(1) = max(0.0_wp, maxval(12*links%inverse*moves(2)/links%bending, links%bending > 0.0_wp))
+            holds(2) = holds(1)/minval(links%inverse)
+            do k = 1, size(responses%closed)
+                associate (response => responses%response(k))
+                    response = response_of(beam, responses%closed, k, responses%lines_type)
+                    ! What statics leaves at rest has a rate of what refinement leaves there, and no size beside it tells that
+                    kind = merge(2, 1, beam%supports(k)%node > size(links))
+                    call margin_rates(beam%supports, responses%closed, k, slope, level, by_force)
+                    rate = holds(kind)
+                    if (slope <= huge(slope)) rate = slope*moves(kind)
+                    if (abs(response%v1) <= no_rate*rate) response%error_of_v1 = max(response%error_of_v1, no_rate*rate)
+                end associate
+            end do
+        end associate
     end subroutine find_responses
 
     !> Which breakpoints that are at zero fall along the line of a region
@@ -131,7 +148,7 @@ contains
             falling(k) = .false.
             if (.not. is_watched_in(beam%supports, closed, k)) cycle
             associate (response => responses%response(k))
-                falling(k) = direction*response%v1 < -max(response%error_of_v1, no_rate*abs(response%v1))
+                falling(k) = direction*response%v1 < -response%error_of_v1
                 ! What is at hand is at zero, whatever this region has made of it by rounding
                 if (.not. at_hand(k)) then
                     falling(k) = falling(k) .and. value_at(response, factor) <= near_breakpoint*width_at(response, factor)

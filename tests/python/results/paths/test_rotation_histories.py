@@ -89,3 +89,33 @@ def test_a_loop_closes_and_its_energy_is_that_of_its_area():
     assert max(loop.movement) == pytest.approx(most, rel=1e-14)
     assert loop.cycles[1].energy == pytest.approx(4.0 * 10.0 * (most - 0.01), rel=1e-12)
     assert loop.cycles[1].closed
+
+
+def test_what_statics_leaves_at_rest_does_not_turn_back():
+    """Curvature of an overhang moves no support. What refinement left of their rates went to and fro, and was told as a limit."""
+    yields = {"rotation": {"law": [[0.002, 10.0], [0.01, 30.0]], "unloading": "plastic"}}
+    softer = {"law": [[0.01, 5.0], [0.02, 7.5], [0.04, 9.0]]}
+    result = gapbeam.solve({
+        "beam": {"spans": [4.0, 5.0], "EI": 2000.0}, "supports": [{"node": 1, **softer}, {"node": 0, **yields}],
+        "loads": [{"type": "uniform", "from": 4.0, "q": 5.0, "case": "dead"}, {"type": "curvature", "from": 4.0, "kappa": -0.004}],
+        "analysis": {"follow": "events", "history": [1.0, 0.0, 1.5]},
+    })  # fmt: skip
+    assert (result.status, result.events) == ("solved", [])
+    assert result.at(9.0, factor=1.5).deflection - result.at(9.0, factor=0.0).deflection == pytest.approx(-1.5 * 0.004 * 25 / 2)
+
+
+def test_a_joint_without_moment_beside_one_that_yields():
+    """Beyond the hinge the beam hangs without load: that its joint does not move was no way on, and the limit was told there."""
+    joint = {"law": [[0.0015, 3.0], [0.003, 4.5], [0.006, 5.4]], "unloading": "plastic"}
+    clamp = {"law": [[0.002, 10.0], [0.01, 30.0]], "unloading": "plastic"}
+    stop = {"side": "above", "law": [[0.005, 10.0], [0.01, 15.0], [0.02, 18.0]]}
+    lifts = {"side": "below", "law": [[0.01, 5.0], [0.02, 7.5], [0.04, 9.0]]}
+    result = gapbeam.solve({
+        "beam": {"spans": [3.0, 2.0], "EI": [2500.0, 5000.0]}, "hinges": [{"x": 3.8, **joint}],
+        "supports": [{"node": 1, **stop, "rotation": 1000.0}, {"node": 2, **lifts}, {"node": 0, "rotation": clamp}],
+        "loads": [{"type": "force", "x": 3.0, "F": 40.0}],
+        "analysis": {"follow": "events", "history": [1.0, 0.0, 1.5, -0.5]},
+    })  # fmt: skip
+    assert result.status == "solved"
+    assert [(event.support, event.event) for event in result.events][-3:] == [(0, "closes"), (0, "yields"), (0, "yields")]
+    assert result.steps[-1].reaction[1] == 0.0
