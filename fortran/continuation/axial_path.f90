@@ -2,6 +2,7 @@
 !> act, let go, yield, slip or stick.
 module gapbeam_axial_path
     use gapbeam_kinds, only: wp, qp
+    use gapbeam_tolerances, only: fine_rounding
     use gapbeam_limits, only: most_idle_segments
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, fatal_error, gapbeam_not_converged, gapbeam_indeterminate, gapbeam_bad_input
@@ -258,7 +259,7 @@ contains
         type(walk_type), intent(inout) :: walk
         integer :: l
 
-        walk%start = values_of(walk%chain)
+        walk%start = numbers_of(walk)
         if (.not. any(walk%chain%keeps_set)) return
         if (.not. allocated(walk%contact)) allocate (walk%contact(size(walk%chain%laws)))
         associate (chain => walk%chain)
@@ -269,6 +270,19 @@ contains
             end do
         end associate
     end subroutine begin_stretch
+
+    !> Numbers of the chain, of which rounding leaves nothing where it comes to rest: first displacements, then forces
+    pure function numbers_of(walk) result(values)
+        type(walk_type), intent(in) :: walk
+        real(wp), allocatable :: values(:)
+
+        values = values_of(walk%chain)
+        if (.not. allocated(walk%start)) return
+        associate (before => abs(walk%start), n => size(walk%chain%flexibility) + 1)
+            where (abs(values(:n)) <= real(fine_rounding, wp)*maxval(before(:n))) values(:n) = 0.0_wp
+            where (abs(values(n + 1:)) <= real(fine_rounding, wp)*maxval(before(n + 1:))) values(n + 1:) = 0.0_wp
+        end associate
+    end function numbers_of
 
     !> Keep a stretch of the path, and the numbers of the chain at its ends
     subroutine keep(walk, s, from, to, error)
@@ -298,7 +312,7 @@ contains
                 if (.not. go_on_from(along%columns(ends(1))%x, walk%start)) ends(1) = 0
             end if
             if (ends(1) == 0) call add_column(walk%start, along, ends(1), error)
-            if (.not. allocated(error)) call add_column(values_of(walk%chain), along, ends(2), error)
+            if (.not. allocated(error)) call add_column(numbers_of(walk), along, ends(2), error)
         end associate
         if (allocated(error)) return
         kept%ends = ends
@@ -312,7 +326,6 @@ contains
             real(wp), intent(in) :: end(:), start(:)
             logical :: go_on_from
 
-            ! First displacements, then forces
             associate (n => size(walk%chain%flexibility) + 1)
                 go_on_from = is_near(end(:n), start(:n)) .and. is_near(end(n + 1:), start(n + 1:))
             end associate

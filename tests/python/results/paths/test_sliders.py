@@ -257,3 +257,18 @@ def test_solves_do_not_grow_with_the_links():
         result = solve([1.0] * (count - 1), [link(i, law) for i, law in enumerate(laws)], loads, [1.0, -1.0, 1.0, -1.0], 100.0)
         assert len(result.events) > 3 * count
         assert result.solves == 1 + 4 * 4
+
+
+def test_a_brake_that_does_not_yield_comes_to_rest():
+    """Rounding of the way back was an axial force of 1e-34, and pictures drew it."""
+    result = gapbeam.solve({
+        "beam": {"spans": [4.0, 4.0], "EI": 2000.0, "EA": 1e5, "alpha": 1e-5},
+        "supports": [{"node": 0}, {"node": 1, "law": [[0.003, 30.0], [0.02, 45.0]], "unloading": "plastic"}, {"node": 2},
+                     {"node": 0, "direction": "axial", "law": [[0.0005, 20.0], [0.003, 25.0]], "unloading": "plastic"},
+                     {"node": 2, "direction": "axial", "stiffness": 2e3}],
+        "loads": [{"type": "force", "x": 4.0, "F": 100.0}, {"type": "temperature", "dT": 60.0}],
+        "analysis": {"follow": "events", "history": [1.0, -1.0, 1.0, 0.0]},
+    })  # fmt: skip
+    assert all(result.at(1.0, factor=0.0, leg=leg).axial_force == 0.0 for leg in (1, 2, 3))
+    assert result.steps[-1].reaction[3:].tolist() == [0.0, 0.0]
+    assert result.steps[-1].deflection[1] > 0.02
