@@ -7,6 +7,7 @@ module gapbeam_rigid_solver
     use gapbeam_limits, only: most_rigid_meshes
     use gapbeam_tolerances, only: rigid_places, fine_rigid_places
     use gapbeam_error, only: error_type, fatal_error, has_ended, gapbeam_solved, gapbeam_not_converged
+    use gapbeam_law, only: both
     use gapbeam_workspace, only: workspace_type
     use gapbeam_contact_state, only: outcome_type
     use gapbeam_ground, only: ground_type, grounded_type
@@ -15,6 +16,7 @@ module gapbeam_rigid_solver
     use gapbeam_rigid_ground, only: settle_contacts
     use gapbeam_rigid_search, only: touch_on_mesh
     use gapbeam_contact_state_quad, only: fine_outcome_type => outcome_type
+    use gapbeam_kinematics_quad, only: held_by_ties
     use gapbeam_ground_quad, only: fine_ground_type => ground_type
     use gapbeam_rigid_contact_quad, only: fine_contact_type => contact_type, layer_beyond
     use gapbeam_rigid_state_quad, only: fine_rigid_type => rigid_type, is_zone, load_at, straightened
@@ -78,6 +80,7 @@ contains
             if (any(without_lever(straight, fine_rigid%contacts))) cycle
             solution%solves = rigid%solves + fine_rigid%solves
             outcome = outcome_type(indifferent=found%indifferent)
+            if (.not. found%indifferent) outcome%indifferent = may_leave(fine_rigid, closed)
             call take_solution(straight, real(factor, qp), fine_rigid, closed, solution)
             grounded = rigid%grounded
             work = rigid%work
@@ -88,6 +91,23 @@ contains
                          "loads or supports that press it against a corner of the ground or hold it where it turns into the "// &
                          "ground, or give the ground a stiffness k")
     end subroutine solve_on_rigid_ground
+
+    !> May the beam move off all that touches it without force
+    function may_leave(rigid, closed) result(it_may)
+        type(fine_rigid_type), intent(in) :: rigid
+        !> States of the supports, behind which those of the ground are
+        logical, intent(in) :: closed(:)
+        logical :: it_may
+        logical, allocatable :: acting(:), idle(:)
+
+        associate (beam => rigid%grounded%beam, work => rigid%work)
+            allocate (acting(size(beam%supports)), source=.true.)
+            acting(:size(closed)) = closed
+            idle = abs(work%answers(beam%supports%node)%deflection - beam%supports%contact) <= rigid%noise%deflection
+            idle = beam%supports%side /= both .and. merge(abs(work%reaction) <= rigid%noise%force, idle, acting)
+            it_may = held_by_ties(beam, acting, idle)
+        end associate
+    end function may_leave
 
     !> Does a beam that is held where it would turn into the ground touch that beside the place: no force does without a lever
     elemental function without_lever(fine, contact) result(it_is)

@@ -369,3 +369,18 @@ def test_a_support_about_which_the_beam_turns_into_the_ground(side, couple):
              "loads": [{"type": "moment", "x": 6.98, "M": couple}]}  # fmt: skip
     with pytest.raises(gapbeam.EngineError, match="hold it where it turns into the ground"):
         gapbeam.solve(scene)
+
+
+@pytest.mark.parametrize("kappa", [0.001, -0.001])
+def test_a_beam_that_balances_on_a_peak_and_touches_beside_it_without_force(kappa):
+    """It may tilt off what it touches: forces are unique, the position is not."""
+    rock = {"k": math.inf, "side": "below", "profile": [[0.0, 0.03], [3.0, 0.0], [6.0, 0.03]]}
+    loads = [{"type": "uniform", "q": 1.0}, {"type": "curvature", "kappa": kappa}]
+    scene = {"beam": {"spans": [6.0], "EI": 1e4}, "foundation": [rock], "loads": loads}
+    for supports in ([], [{"node": 0, "side": "below"}], [{"node": 1, "side": "below"}]):
+        result = gapbeam.solve({**scene, "supports": supports})
+        assert result.steps[-1].indifferent
+        assert result.reason == "solved, but free to move: its position is not unique"
+        assert result.at(3.0).moment == pytest.approx(-4.5, rel=1e-14)
+    held = gapbeam.solve({**scene, "supports": [{"node": 0}]})
+    assert not held.steps[-1].indifferent
