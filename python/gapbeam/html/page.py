@@ -21,7 +21,7 @@ from ..results.event_words import state_in_words
 from ..scene.axial_ground import places_of_marks
 from ..scene.names import label
 from .hand_check import sums_data
-from .states import SIDES, packed, stands
+from .states import SIDES, is_at_places, packed, stands
 from .tables import tables_of
 from .three_moments import three_moments_data
 from .ways import Of, collect_ways
@@ -113,7 +113,7 @@ def html_page(result: Result, source: Source | None = None) -> str:
         title=fmt.title(scene), lines=answer(result), data=_json(data), version=data["version"], sha256=data["sha256"],
         source=source.name, text=source.data.decode("utf-8", "replace").lstrip("\ufeff"),
         tables=tables_of(result, envelope, collected.ways), ways=collected.ways, remarks=result.remarks,
-        exactness=exactness(collected, result._beam.in_stretches),
+        exactness=exactness(collected, is_at_places(result)),
         footer=_css(f"{fmt.title(scene)[:60]} \u00b7 gapbeam {data['version']} \u00b7 input {data['sha256'][:12]}"),
         units=scene.units, upright=data["upright"],
         ground=bool(scene.foundation), status=result.status, checked=None if state is None else _checked(state),

@@ -10,6 +10,7 @@ import numpy as np
 from ..engine.beam import SOLVED
 from ..engine.quantities import FIELDS
 from ..scene.loads import AxialUniformLoad
+from ..scene.tapers import is_tapered
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -49,8 +50,19 @@ def packed(values: np.ndarray) -> str:
     return base64.b64encode(np.ascontiguousarray(values, dtype="<f4").tobytes()).decode()
 
 
+def is_at_places(result: Result) -> bool:
+    """Whether states are given at many places: on the ground, under axial forces and where sections taper they are no polynomials.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load.
+    """
+    return result._beam.in_stretches or any(map(is_tapered, result.scene.sections))
+
+
 def places_on_ground(result: Result) -> tuple[np.ndarray, np.ndarray]:
-    """Choose the places at which states on the ground are given: there they are no polynomials.
+    """Choose the places at which states are given that are no polynomials.
 
     Parameters
     ----------
@@ -84,7 +96,7 @@ class Recorder:
     def __init__(self, result: Result, words: list[str], short: int = 0) -> None:
         self._beam, self._words, self._short = result._beam, words, short
         self.x = result._beam.places.point_x
-        self.grid = places_on_ground(result) if result._beam.in_stretches else None
+        self.grid = places_on_ground(result) if is_at_places(result) else None
         self._is_spread = any(isinstance(load, AxialUniformLoad) for load in result.scene.loads)
 
     def codes(self, states: tuple[str, ...]) -> str:
@@ -118,13 +130,17 @@ class Recorder:
         dict
             On the ground its fields at many places; else deflections of the joints, moments left and right of the pieces.
         """
+        found = {}
         if self.grid is not None:
             values = step.values(self.grid[0] + np.int32(1), self.grid[1])
-            return {name: values[ROW[field]] for name, field in ON_GROUND.items()}
+            found = {name: values[ROW[field]] for name, field in ON_GROUND.items()}
+            if self._beam.in_stretches:
+                return found
         beam = step._beam
         right, left = (step.values(*beam.find(x, side)) for x, side in ((self.x[:-1], False), (self.x[1:], True)))
-        w, m = ROW["deflection"], ROW["moment"]
-        found = {"w": np.append(right[w], left[w, -1]), "m": right[m], "m_left": left[m]}
+        if self.grid is None:
+            w, m = ROW["deflection"], ROW["moment"]
+            found = {"w": np.append(right[w], left[w, -1]), "m": right[m], "m_left": left[m]}
         if self._beam.bars >= 0:
             found["n"] = right[ROW["axial_force"]]
             if self._is_spread:

@@ -14,7 +14,7 @@ from ..scene.movements import number_of_moved
 from ..scene.names import DEAD, labels
 from ..scene.rotations import turns
 from .load_ways import count_numbers, way_of_load
-from .states import SIDES, places_on_ground
+from .states import SIDES, is_at_places, places_on_ground
 from .train_ways import MOST_NUMBERS, way_of_train
 
 if TYPE_CHECKING:
@@ -168,7 +168,7 @@ def _beam_data(result: Result) -> dict[str, Any]:
         "forces": forces.tolist(),
         "hinges": [*map(float, result.scene.beam.hinges), *result.scene.positions(result.scene.hinges).tolist()],
     }
-    if result._beam.in_stretches:
+    if is_at_places(result):
         piece, distance = places_on_ground(result)
         found["grid"] = {"piece": piece.tolist(), "x": (places.point_x[piece] + distance).tolist()}
     return found

@@ -98,7 +98,7 @@ def exactness(collected: Collected, at_places: bool) -> list[str]:
     collected : Collected
         All that the page moves.
     at_places : bool
-        Whether fields are given at places: on the ground, and with axial forces that bending feels.
+        Whether fields are given at places (`is_at_places`).
     """
     kinds = dict.fromkeys(way["over"] for way in collected.ways if "over" in way)
     found = [EXACT[kind] for kind in kinds if kind != "one" or len(collected.ways) == 1]

@@ -232,6 +232,25 @@ def test_along_a_path_all_that_is_drawn_is_exact(browser, look_at, more):
         assert found["words"] == list(step.state)
 
 
+def test_a_taper_is_drawn_as_it_bends(browser, look_at):
+    """It was drawn with its least stiffness everywhere, and the largest deflection was told by that."""
+    result = look_at({
+        "beam": {"spans": [6.0, 6.0], "EI": 1e4, "EA": 1e5},
+        "supports": [{"node": 0}, {"node": 1, "side": "below", "gap": 0.002}, {"node": 2}, {"node": 0, "direction": "axial"}],
+        "sections": [{"to": 6.0, "EI": {"from": 1e4, "to": 8e4, "power": 3}}],
+        "analysis": {"follow": "events", "first_order": True},
+        "loads": [{"type": "uniform", "q": 10.0}, {"type": "axial", "x": 9.0, "F": 5.0}],
+    })  # fmt: skip
+    largest = result.extremes["deflection"]["max"]
+    assert f"{largest.value:.5g} at {largest.x:.5g}" in {one.text for one in browser.find_elements(By.CSS_SELECTOR, "text")}
+    for factor in (0.03, 0.7, 1.0):
+        places = np.linspace(0.1, 11.9, 41)
+        found = browser.execute_script(VALUES, 0, factor, places.tolist())
+        there = result.at(places, factor=factor)
+        for row, exact in zip(found["fields"], (there.deflection, there.moment, there.shear), strict=True):
+            np.testing.assert_allclose(row, exact, rtol=0, atol=2e-4 * np.abs(exact).max())
+
+
 def test_temperatures_are_named_as_they_are_given_and_curvatures_with_their_unit(browser, look_at):
     loads = [gapbeam.TemperatureLoad(gradient=-40.0), gapbeam.TemperatureLoad(dT=5.0, gradient=2.0, to=3.0),
              gapbeam.TemperatureLoad(dT=7.0), gapbeam.CurvatureLoad(kappa=2e-4)]  # fmt: skip

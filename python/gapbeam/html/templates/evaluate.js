@@ -128,7 +128,7 @@ class State {
   /* A field at a place, right of it where it jumps unless the left side is asked for. */
   value(name, x, left = false) {
     const k = this.piece(x, left);
-    return this.beam.grid ? this.onGrid(name, k, x, left) : this.inPiece(name, k, x - this.beam.x[k], left);
+    return this.beam.grid && name !== "axial_force" ? this.onGrid(name, k, x, left) : this.inPiece(name, k, x - this.beam.x[k], left);
   }
 
   /* Axial force on ground along the beam, straight between the ends of slip zones; between two states of them by many places. */
