@@ -17,6 +17,7 @@ from ..results.state.ground import joined
 
 if TYPE_CHECKING:
     from ..results.result import Result
+    from ..results.state.ground import Contact
     from ..results.state.step import Step
 
 MOST_STATES = 80
@@ -94,10 +95,9 @@ def draw_zones(axes: Axes, result: Result, stretches: Sequence[Sequence[Step]]) 
             if len(rows) == 1:
                 lines += [[(rows[0][0], zone.from_), (rows[0][0], zone.to)] for zone in rows[0][1]]
             for (low, before), (high, after) in pairwise(rows):
-                if len(before) == len(after):
-                    areas[shade] += [
-                        [(low, a.from_), (low, a.to), (high, b.to), (high, b.from_)] for a, b in zip(before, after, strict=True)
-                    ]
+                areas[shade] += [
+                    [(low, a[0]), (low, a[1]), (high, b[1]), (high, b[0])] for a, b in _paired(_ends(before), _ends(after))
+                ]
     for shade, corners in areas.items():
         axes.add_collection(PolyCollection(corners, facecolors=shade, edgecolors=shade, linewidths=0.3, zorder=2, snap=False,
                                            label="contact"))  # fmt: skip
@@ -108,6 +108,38 @@ def draw_zones(axes: Axes, result: Result, stretches: Sequence[Sequence[Step]]) 
         axes.plot(event.factor, event.x, marker, color="black", markerfacecolor=face, markersize=4.5, clip_on=False, zorder=4)
     axes.set_ylim(0.0, float(result.scene.span_ends()[-1]))
     axes.yaxis.set_major_locator(MaxNLocator(6))
+
+
+def _ends(zones: Sequence[Contact]) -> list[tuple[float, float]]:
+    return [(zone.from_, zone.to) for zone in zones]
+
+
+def _paired(
+    before: list[tuple[float, float]], after: list[tuple[float, float]]
+) -> list[tuple[tuple[float, float], tuple[float, float]]]:
+    """Pair the zones of two states beside each other, of which one may be at the event at which a zone vanishes or splits.
+
+    Examples
+    --------
+    >>> _paired([(0.0, 1.0), (4.0, 6.0)], [(0.0, 1.5)])
+    [((0.0, 1.0), (0.0, 1.5)), ((4.0, 6.0), (5.0, 5.0))]
+    >>> _paired([(0.0, 3.0)], [(0.0, 1.0), (2.0, 3.0)])
+    [((0.0, 1.5), (0.0, 1.0)), ((1.5, 3.0), (2.0, 3.0))]
+    """
+    if len(before) == len(after):
+        return list(zip(before, after, strict=True))
+    if len(before) < len(after):
+        return [(other, one) for one, other in _paired(after, before)]
+    found = []
+    for one in before:
+        there = next((zone for zone in after if zone[0] <= one[1] and one[0] <= zone[1]), None)
+        if there is None:
+            found.append((one, (sum(one) / 2,) * 2))
+            continue
+        parts = [zone for zone in before if zone[0] <= there[1] and there[0] <= zone[1]]
+        cuts = [there[0], *((a[1] + b[0]) / 2 for a, b in pairwise(parts)), there[1]]
+        found.append((one, tuple(cuts[parts.index(one) :][:2])))
+    return found
 
 
 def draw_extremes(axes: Axes, states: Sequence[Step], dots: bool) -> None:

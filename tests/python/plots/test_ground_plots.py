@@ -1,5 +1,7 @@
 """The ground in pictures: what is in the figures."""
 
+from itertools import pairwise
+
 import gapbeam
 import numpy as np
 import pytest
@@ -249,3 +251,22 @@ def test_path_by_load_steps_without_supports():
     for name, which in (("largest", "max"), ("smallest", "min")):
         largest = [step.extremes["deflection"][which].value for step in result.steps]
         np.testing.assert_allclose(line(lower, name)[:, 1], largest)
+
+
+def test_up_to_an_event_all_zones_are_drawn():
+    """One of them vanished or split at the event, and none of that foundation was drawn before it."""
+    clay = {"name": "clay", "k": [2e3, 5e3], "side": "below", "to": 12.0, "profile": [[0.0, 0.0], [6.0, 0.02], [12.0, 0.0]]}
+    rock = {"name": "rock", "k": 1e4, "side": "below", "gap": 0.01, "from": 20.0}
+    scene = {
+        "beam": {"spans": [20.0, 10.0], "EI": 3e4}, "supports": [{"node": 2}], "analysis": {"follow": "events"},
+        "foundation": [clay, {"k": 3e3, "from": 12.0, "to": 20.0}, rock],
+        "loads": [{"type": "uniform", "q": 4.0, "case": "dead"}, {"type": "movement", "foundation": "clay", "value": [0.02, 0.05]},
+                  {"type": "movement", "foundation": "rock", "value": -0.015}, {"type": "movement", "support": 0, "value": 0.02}],
+    }  # fmt: skip
+    result = gapbeam.solve(scene)
+    assert {"zone vanishes", "zone splits"} <= {event.event for event in result.events}
+    areas = [path.vertices for found in collections(path_figure(result).axes[0], "contact") for path in found.get_paths()]
+    for end in (0.0, 30.0):  # contact at either end goes on from its beginning to the end of the load
+        there = sorted((low, high) for (low, a), (_, b), (high, c), (_, d), *_ in areas if end in (a, b) and end in (c, d))
+        assert there[-1][1] == 1.0
+        assert max(low - high for (_, high), (low, _) in pairwise(there)) < 1e-12
