@@ -80,12 +80,12 @@ class Ground:
     def rates(self, i, shifts):
         """A on piece i, x from its left end, and its length."""
         beam, shift, L0 = self.beam, shifts.get(i, arb(0)), self.beam.x[i + 1] - self.beam.x[i]
-        EI, GA, (qa, qb), A = beam.stiff["EI"][i], beam.stiff["GA"][i], beam.spread["q"][i], arb_mat(6, 6)
+        (EI, GA), ((qa, qb), (ka, kb)), A = *([of[i] for of in d.values()] for d in (beam.stiff, beam.spread)), arb_mat(6, 6)
         level, rise = qa + (qb - qa) / L0 * shift, (qb - qa) / L0
         for layer in (layer for layer in self.layers if i in layer.acting):
             A[3, 0], slope = A[3, 0] + layer.k, layer.slope(beam, i)
             level, rise = level + layer.k * (layer.surface[i] + slope * shift), rise + layer.k * slope
-        A[0, 1], A[0, 3], A[1, 2], A[1, 4] = 1, inverse(GA), -inverse(EI), beam.spread["kappa"][i][0]
+        A[0, 1], A[0, 3], A[1, 2], A[1, 4], A[1, 5] = 1, inverse(GA), -inverse(EI), ka + (kb - ka) / L0 * shift, (kb - ka) / L0
         A[2, 3], A[3, 4], A[3, 5], A[5, 4] = 1, -level, -rise, 1
         return A, L0 + shifts.get(i + 1, 0) - shift
     def scales(self, A, L):

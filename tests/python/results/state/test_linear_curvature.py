@@ -13,7 +13,7 @@ from gapbeam import SceneError
 from gapbeam.cli import main
 from gapbeam.studies.exact import Reference
 
-CHECKER = Path(__file__).resolve().parents[3] / "oracle" / "checkers" / "proof_checker.py"
+CHECKERS = Path(__file__).resolve().parents[3] / "oracle" / "checkers"
 L, K = 4.0, 0.012
 SIMPLE = {"beam": {"spans": [L], "EI": 100.0}, "supports": [{"node": 0}, {"node": 1}],
           "loads": [{"type": "curvature", "kappa": [0.0, K]}]}  # fmt: skip
@@ -80,11 +80,15 @@ def test_random_beams_beside_rationals(seed):
             assert -1e-9 * (1.0 + span) <= beyond <= 1e-3 * span + 1e-9, (quantity, way)
 
 
-def test_proofs_know_it(tmp_path):
+@pytest.mark.parametrize("side", [None, "both", "below"])
+def test_proofs_know_it(tmp_path, side):
     scene, proof = tmp_path / "scene.toml", tmp_path / "proof.json"
-    gapbeam.read_scene(beam_of(3)).to_toml(scene)
+    made, checker = beam_of(3), "proof_checker.py"
+    if side:
+        made, checker = {**SIMPLE, "foundation": [{"k": 50.0, "side": side}]}, "proof_checker_ground.py"
+    gapbeam.read_scene(made).to_toml(scene)
     assert main(["prove", str(scene), "-o", str(proof)]) == 0
-    done = subprocess.run([sys.executable, CHECKER, proof], capture_output=True, text=True, check=False)
+    done = subprocess.run([sys.executable, CHECKERS / checker, proof], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout.split()[0]) == (0, "proved")
 
 
