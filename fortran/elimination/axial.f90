@@ -89,8 +89,6 @@ contains
             else
                 reaction(i) = -stiffness(i)*(displacement(i) - settlement(i))
                 left = pull + force(i) + reaction(i)
-                ! Where nothing holds the beam left of here that is what loads are, without rounding of the reaction
-                if (.not. (k(i) > 0.0_wp .or. fixed(i))) left = n0(i)
             end if
             tension(i) = left
             if (.not. (rigid(i - 1) .or. fixed(i - 1))) displacement(i - 1) = (displacement(i) - elongation(i)) &
