@@ -34,6 +34,7 @@ contains
         integer :: i, k, stored
 
         call new_history(0, history)
+        stretch%skipped = .false.
         closed(:) = .false.
         contact(:) = 0.0_wp
         allocate (schemes(supports, stretches))
@@ -74,6 +75,7 @@ contains
         integer :: k
 
         call new_history(0, history)
+        stretch%skipped = .false.
         do k = 1, 2
             call keep_pieces([1, 2], [k == 1, .true.], laws, last, stretch)
             if (k == 2) call nothing_changes(stretch)
