@@ -1,5 +1,6 @@
 """Settings of hypothesis (the same examples in every run; HYPOTHESIS_PROFILE=explore draws new ones), other seeds, fixtures."""
 
+import gc
 import os
 import subprocess
 import sys
@@ -17,6 +18,14 @@ settings.register_profile(
 )
 settings.register_profile("explore", deadline=None, max_examples=3000, suppress_health_check=CALM)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "fixed"))
+
+
+gc.set_threshold(50_000)  # many digits and pictures are many small objects, next to none of them in a cycle
+
+
+def pytest_collection_finish():
+    """No more tests are made: what they are is not searched for garbage again and again."""
+    gc.freeze()
 
 
 def pytest_addoption(parser):
