@@ -1,6 +1,7 @@
 # Sourced by examples/run and tests/run from the top of the tree. It defines
 #
 #     set_up EXTRAS      the package in .venv, built anew only where a source has changed; EXTRAS may be ""
+#     environment        .venv without it, and first in the PATH
 #
 # and what that takes: compiler, Python's headers and LAPACK by apt-get, the rest by pip.
 
@@ -97,13 +98,16 @@ tell_progress() {
     done
 }
 
-set_up() {
-    extras=$1
+environment() {
     base_python=${PYTHON:-python3}
     if [ ! -d .venv ] || ! location | cmp -s - .venv/gapbeam; then make_environment; fi
     PATH=$PWD/.venv/bin:$PATH
     export PATH PIP_DISABLE_PIP_VERSION_CHECK=1
+}
 
+set_up() {
+    extras=$1
+    environment
     if fingerprint | cmp -s - ".venv/installed-$extras"; then return; fi
     say "building and installing the package${extras:+ with what its extra $extras takes}, some two minutes on two cores"
     tell_progress &
