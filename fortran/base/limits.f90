@@ -95,7 +95,7 @@ module gapbeam_limits
     !> Looks for a first state under loads on ground whose force falls that begin on ground that never does; tuned. Read by
     !> precision/falling_ground
     integer, parameter :: most_fresh_starts = 8
-    !> Places of a mode on every stretch, so that it can be drawn. Read by precision/compressed
+    !> Places of a mode on every stretch, so that it can be drawn. Read by precision/compressed, precision/unloaded_beam
     integer, parameter :: mode_parts = 8
 
     !

@@ -237,7 +237,7 @@ contains
         solution%unique = .false.
         if (reached) then
             call start_from(solution, closed, start)
-            call leave_supports(ground, solution, start, share, mode, gives_way)
+            call leave_supports(ground, solution, 1.0_wp, start, share, mode, gives_way)
             if (.not. gives_way) return
             last = solution
             last%deflection(:) = mode

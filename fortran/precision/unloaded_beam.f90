@@ -25,10 +25,12 @@ contains
 
     !> Look for the least share of the axial forces under which a beam buckles away from supports without force, or on to flatter
     !> pieces of their laws. Those that a mode would press into, one way or the other, are kept in the next ones
-    subroutine leave_supports(ground, solution, start, share, mode, leaves)
+    subroutine leave_supports(ground, solution, most, start, share, mode, leaves)
         !> The beam under its axial forces, and its state
         type(ground_type), intent(in) :: ground
         type(ground_solution_type), intent(in) :: solution
+        !> Up to which share is looked
+        real(wp), intent(in) :: most
         !> Its zones and the states of its supports in; those in the mode out
         type(ground_start_type), intent(inout) :: start
         real(wp), intent(out) :: share
@@ -43,7 +45,7 @@ contains
         integer :: at, number, found, way, k
 
         leaves = .false.
-        share = 1.0_wp
+        share = most
         now(:) = start%closed
         if (is_loaded(ground, solution)) return
         free(:) = now
@@ -54,7 +56,8 @@ contains
         do while (at < number .and. share > 0.0_wp)
             at = at + 1
             if (all(closed(:, at) .eqv. now)) cycle
-            call find_mode_values(ground, start%zones, closed(:, at), solution%factor, by_axial_force, share, value, found, lost)
+            call find_mode_values(ground, start%zones, closed(:, at), solution%factor, by_axial_force, min(share, 1.0_wp), value, &
+                                  found, lost)
             if (found == 0) cycle
             if (value(1) >= share) cycle
             ! What turns freely gives way under next to nothing

@@ -8,6 +8,7 @@ module gapbeam_state_modes
     use gapbeam_piece, only: is_compressed
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_start, only: ground_start_type, start_from
+    use gapbeam_unloaded_beam, only: leave_supports
     use gapbeam_refined_ground, only: refine_ground, refine_zones
     use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type
     use gapbeam_modes, only: by_axial_force, by_vibration
@@ -63,7 +64,7 @@ contains
         if (allocated(error)) return
         ground = ground_of(assembled, state%factor, state)
         if (what == by_axial_force .and. .not. any(is_compressed(ground%pieces))) return
-        call start_from(state%ground, state%closed, start)
+        call find_acting(ground, state, what, start)
         first = first_step(ground, what)
         call find_mode_values(ground, start%zones, start%closed, start%factor, what, first, values, known, lost)
         if (.not. lost) then
@@ -112,7 +113,7 @@ contains
         end if
         if (allocated(error)) return
         ground = ground_of(assembled, state%factor, state)
-        call start_from(state%ground, state%closed, start)
+        call find_acting(ground, state, what, start)
         call refine_ground(ground, fine)
         call refine_zones(fine, start%zones, zones)
         at = value
@@ -131,6 +132,21 @@ contains
         end associate
         call find_amplitude(assembled, ground, state, real(found%at_nodes, wp), real(found%reaction, wp), shape)
     end subroutine shape_of_mode
+
+    !> What acts in a state; a compressed beam without loads may buckle away from what it only touches
+    subroutine find_acting(ground, state, what, start)
+        type(ground_type), intent(in) :: ground
+        type(state_type), intent(in) :: state
+        !> As for values_of_modes
+        integer, intent(in) :: what
+        type(ground_start_type), intent(out) :: start
+        real(wp), allocatable :: mode(:)
+        real(wp) :: share
+        logical :: leaves
+
+        call start_from(state%ground, state%closed, start)
+        if (what == by_axial_force) call leave_supports(ground, state%ground, huge(share), start, share, mode, leaves)
+    end subroutine find_acting
 
     !> How far a mode may swing before a support closes or opens
     pure subroutine find_amplitude(assembled, ground, state, at_nodes, reaction, shape)

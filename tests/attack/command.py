@@ -19,6 +19,7 @@ from . import (
     laws,
     layers,
     memory,
+    mixed,
     models,
     mutants,
     roads,
@@ -31,7 +32,7 @@ from .table import Row, markdown
 
 MODULES = (
     enumeration, events, signs, hinges, laws, yielding, softening, curves, doubled, ground, falling, layers, trains, combinations,
-    batches, roads, axial_force, mutants, models, memory,
+    batches, roads, mixed, axial_force, mutants, models, memory,
 )  # fmt: skip
 FAMILIES = {module.FAMILY.name: module.FAMILY for module in MODULES}
 

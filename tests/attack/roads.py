@@ -12,7 +12,6 @@ from scenes import (
     foundation,
     law,
     links_along,
-    mixed,
     moving,
     plain,
     rigid_ground,
@@ -77,7 +76,6 @@ KINDS = {
     "rack": _rack,
     "pipe": lambda seed: _first_order(links_along.random_pipe(random.Random(seed))),
     "pile": lambda seed: _first_order(bedded_bar(seed)),
-    "mixed": lambda seed: _plain(mixed.mixed_scene(seed)[1]),
     "pile on ground": lambda seed: {**_first_order(bedded_bar(seed)), "foundation": [{"k": 1e4}]},
     **{family: lambda seed, family=family: _plain(law.law_scene(seed, family)) for family in law.FAMILIES},
 }

@@ -28,7 +28,7 @@ TOP = Path(__file__).resolve().parents[2]
 SMALL = {
     "events": 60, "signs": 150, "hinges": 60, "mutants": 60, "memory": 8,
     "laws": 60, "yielding": 20, "curves": 20, "doubled": 60, "ground": 60, "trains": 12, "combinations": 25, "batches": 40,
-    "roads": 19,
+    "roads": 19, "mixed": 30,
 }  # fmt: skip
 
 

@@ -69,6 +69,11 @@ def test_a_column_without_loads_leaves_its_support(side):
     result = gapbeam.solve(column)
     assert share_of(result) == pytest.approx(math.pi**2 / 4 / 5.0, rel=1e-5)
     assert max((w for _, w in result.motion), key=abs) == pytest.approx(-1.0 if side == "below" else 1.0)
+    # Under less of it the factor says so
+    stands = gapbeam.solve({**column, "beam": {**column["beam"], "N": -1.0}, "analysis": {"buckling": 2}})
+    assert stands.buckling[0] == pytest.approx(math.pi**2 / 4, rel=1e-14)
+    mode = stands.mode("buckling", 1)
+    assert np.abs(mode.deflection) == pytest.approx(np.sin(math.pi * np.asarray(mode.x) / 2), abs=1e-9)
     # Held both ways, or pressed onto it by next to nothing, it stands
     assert gapbeam.solve(scene([1.0, 1.0], [at(0), at(1), at(2)], EI=1.0, N=-5.0)).status == "solved"
     pressed = {**column, "loads": [force(0.7, 1e-9 if side == "below" else -1e-9)]}
