@@ -184,9 +184,9 @@ contains
         type(ground_start_type), intent(in), optional :: near
         type(ground_solution_type) :: last
         type(ground_start_type) :: start
-        logical :: first(size(closed)), last_closed(size(closed)), reached, gives_way
+        logical :: first(size(closed)), last_closed(size(closed)), reached, gives_way, leaves
         real(wp), allocatable :: mode(:)
-        real(wp) :: share, step
+        real(wp) :: share, step, least
         integer :: search, number, solves
 
         first(:) = closed
@@ -237,19 +237,25 @@ contains
         solution%unique = .false.
         if (reached) then
             call start_from(solution, closed, start)
-            call leave_supports(ground, solution, 1.0_wp, start, share, mode, gives_way)
-            if (.not. gives_way) return
+            call leave_supports(ground, solution, 1.0_wp, start, least, mode, leaves)
+            if (.not. leaves) return
             last = solution
-            last%deflection(:) = mode
+        else
+            call start_from(last, last_closed, start)
+            call leave_supports(ground, last, share, start, least, mode, leaves)
+        end if
+        if (leaves) then
+            share = least
+            last%acts(:, :) = start%zones%acts
             last_closed(:) = start%closed
         end if
         if (allocated(error)) deallocate (error)
-        call buckle(ground, given, last, last_closed, share, solution, outcome, error)
+        call buckle(ground, given, last, last_closed, share, solution, outcome, error, mode)
 
     end subroutine follow_compression
 
     !> The end of stable states: how the beam gives way there
-    subroutine buckle(ground, given, last, closed, share, solution, outcome, error)
+    subroutine buckle(ground, given, last, closed, share, solution, outcome, error, mode)
         !> As for follow_compression
         type(ground_type), intent(in) :: ground
         real(wp), intent(in) :: given
@@ -257,16 +263,18 @@ contains
         type(ground_solution_type), intent(in) :: last
         logical, intent(in) :: closed(:)
         real(wp), intent(in) :: share
-        !> With that share and the mode, on the side to which the last state bends
+        !> With that share and the mode, on the side to which the last state bends, or of the mode that is known
         type(ground_solution_type), intent(inout) :: solution
         type(outcome_type), intent(out) :: outcome
         !> It is stable still
         type(error_type), allocatable, intent(out) :: error
+        !> Deflections of that, not allocated where none is
+        real(wp), allocatable, intent(in) :: mode(:)
         type(ground_start_type) :: start
         type(ground_type) :: pressed
         type(mode_shape_type) :: shape
         character(len=20) :: text
-        real(wp) :: value(1)
+        real(wp) :: value(1), way
         logical :: gives_way, lost
         integer :: found, i
 
@@ -299,7 +307,11 @@ contains
         do i = 2, size(solution%mode_piece)
             outcome%motion(solution%mode_piece(i)) = solution%mode_deflection(i)
         end do
-        if (dot_product(outcome%motion, last%deflection) >= 0.0_wp) return
+        way = dot_product(outcome%motion, last%deflection)
+        if (allocated(mode)) then
+            if (size(mode) == size(solution%mode_deflection)) way = dot_product(solution%mode_deflection, mode)
+        end if
+        if (way >= 0.0_wp) return
         outcome%motion(:) = -outcome%motion
         solution%mode_deflection(:) = -solution%mode_deflection
     end subroutine buckle

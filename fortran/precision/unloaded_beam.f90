@@ -1,10 +1,12 @@
-!> Compressed beams on which no load acts: what only touches them holds them one way, and they may buckle the other way.
+!> Compressed beams on which no load acts: supports and ground that only touch them hold them one way, and they may buckle the
+!> other way.
 module gapbeam_unloaded_beam
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: mode_parts
     use gapbeam_tolerances, only: little_compression
     use gapbeam_law_margins, only: let_go
-    use gapbeam_ground, only: ground_type
+    use gapbeam_law, only: both
+    use gapbeam_ground, only: ground_type, zones_type
     use gapbeam_ground_quad, only: fine_ground_type => ground_type
     use gapbeam_refined_ground, only: refine_ground
     use gapbeam_modes, only: by_axial_force, mode_shape_type, find_mode_shape
@@ -24,7 +26,7 @@ module gapbeam_unloaded_beam
 contains
 
     !> Look for the least share of the axial forces under which a beam buckles away from supports without force, or on to flatter
-    !> pieces of their laws. Those that a mode would press into, one way or the other, are kept in the next ones
+    !> pieces of their laws, and off ground. What a mode would press into, one way or the other, is kept in the next ones
     subroutine leave_supports(ground, solution, most, start, share, mode, leaves)
         !> The beam under its axial forces, and its state
         type(ground_type), intent(in) :: ground
@@ -34,57 +36,98 @@ contains
         !> Its zones and the states of its supports in; those in the mode out
         type(ground_start_type), intent(inout) :: start
         real(wp), intent(out) :: share
-        !> Deflections in it, the way in which it leaves, shape (0:n)
+        !> Deflections in it at the places of a mode_shape_type, the way in which it leaves
         real(wp), allocatable, intent(out) :: mode(:)
         !> Is there one
         logical, intent(out) :: leaves
         type(mode_shape_type) :: shape
-        logical :: now(size(start%closed)), free(size(start%closed)), closed(size(start%closed), most_schemes_left), lost
-        logical :: wrong(size(start%closed))
+        type(zones_type) :: zones, best
+        logical :: now(size(start%closed)), closed(size(start%closed), most_schemes_left), wrong(size(start%closed))
+        !> Does the ground that acts one way act in a scheme, and would a mode press into it
+        logical :: on_ground(most_schemes_left), presses, lost
         real(wp) :: value(1)
         integer :: at, number, found, way, k
 
         leaves = .false.
         share = most
-        now(:) = start%closed
         if (is_loaded(ground, solution)) return
-        free(:) = now
-        call let_go(ground%beam%supports, solution%deflection, solution%reaction, 0.0_wp, free)
+        now(:) = start%closed
+        closed(:, 1) = now
+        call let_go(ground%beam%supports, solution%deflection, solution%reaction, 0.0_wp, closed(:, 1))
+        on_ground(1) = .false.
         number = 1
-        closed(:, 1) = free
         at = 0
         do while (at < number .and. share > 0.0_wp)
             at = at + 1
-            if (all(closed(:, at) .eqv. now)) cycle
-            call find_mode_values(ground, start%zones, closed(:, at), solution%factor, by_axial_force, min(share, 1.0_wp), value, &
-                                  found, lost)
+            zones = start%zones
+            if (.not. on_ground(at)) zones = off_ground(ground, zones)
+            if (all(closed(:, at) .eqv. now) .and. all(zones%acts == start%zones%acts)) cycle
+            call find_mode_values(ground, zones, closed(:, at), solution%factor, by_axial_force, min(share, 1.0_wp), value, found, &
+                                  lost)
             if (found == 0) cycle
             if (value(1) >= share) cycle
             ! What turns freely gives way under next to nothing
-            call find_mode_shape(ground, start%zones, closed(:, at), solution%factor, by_axial_force, &
+            call find_mode_shape(ground, zones, closed(:, at), solution%factor, by_axial_force, &
                                  max(value(1), little_compression), mode_parts, shape)
             if (size(shape%piece) == 0) cycle
             do way = -1, 1, 2
-                wrong(:) = .false.
                 do k = 1, size(now)
-                    if (closed(k, at) .eqv. now(k)) cycle
                     associate (s => ground%beam%supports(k))
-                        wrong(k) = merge(-way, way, now(k))*s%side*shape%at_nodes(s%node) < -no_deflection
+                        wrong(k) = (closed(k, at) .neqv. now(k)) .and. &
+                            merge(-way, way, now(k))*s%side*shape%at_nodes(s%node) < -no_deflection
                     end associate
                 end do
-                if (.not. any(wrong)) then
+                presses = .not. on_ground(at) .and. presses_ground(ground, shape, way)
+                if (.not. (presses .or. any(wrong))) then
                     leaves = .true.
                     share = merge(value(1), 0.0_wp, value(1) > tiny(1.0_wp)/epsilon(1.0_wp))
-                    mode = way*shape%at_nodes
+                    mode = way*shape%deflection
                     start%closed(:) = closed(:, at)
+                    best = zones
                     exit
                 else if (number < most_schemes_left) then
                     number = number + 1
                     closed(:, number) = merge(now, closed(:, at), wrong)
+                    on_ground(number) = on_ground(at) .or. presses
                 end if
             end do
         end do
+        if (leaves) start%zones = best
     end subroutine leave_supports
+
+    !> Zones without the ground that acts one way
+    pure function off_ground(ground, zones) result(left)
+        type(ground_type), intent(in) :: ground
+        type(zones_type), intent(in) :: zones
+        type(zones_type) :: left
+        integer :: i, k
+
+        left = zones
+        do i = 1, size(zones%piece)
+            associate (j => zones%piece(i))
+                do k = ground%first(j), ground%first(j + 1) - 1
+                    if (ground%layers(k)%side /= both) left%acts(k - ground%first(j) + 1, i) = 0
+                end do
+            end associate
+        end do
+    end function off_ground
+
+    !> Does a mode, one way, go into ground that acts one way
+    pure function presses_ground(ground, shape, way) result(presses)
+        type(ground_type), intent(in) :: ground
+        type(mode_shape_type), intent(in) :: shape
+        !> 1 or -1
+        integer, intent(in) :: way
+        logical :: presses
+        integer :: i, k
+
+        presses = .false.
+        do i = 1, size(shape%piece)
+            do k = ground%first(shape%piece(i)), ground%first(shape%piece(i) + 1) - 1
+                presses = presses .or. way*ground%layers(k)%side*shape%deflection(i) > no_deflection
+            end do
+        end do
+    end function presses_ground
 
     !> Acts any load, or anything else by which supports push
     function is_loaded(ground, solution) result(it_is)
@@ -95,7 +138,7 @@ contains
         real(wp) :: force, way, modulus
         integer :: k
 
-        it_is = any(abs(solution%reaction) > 0.0_wp)
+        it_is = any(ground%layers%rigid) .or. any(abs(solution%reaction) > 0.0_wp) .or. any(abs(solution%resultant) > 0.0_wp)
         if (it_is) return
         call refine_ground(ground, fine)
         do k = 0, 1

@@ -85,6 +85,21 @@ def test_a_column_without_loads_leaves_its_support(side):
     assert share_of(result) == pytest.approx(math.pi**2 / 4 / 5.0, rel=1e-5)
 
 
+@pytest.mark.parametrize("side", ["below", "above"])
+def test_a_column_without_loads_leaves_its_ground(side):
+    """It is held by the ground one way only, however much it bears with it."""
+    made = scene([10.0], [at(0), at(1)], EI=1.0, N=-0.05) | {"foundation": [{"k": 100.0, "side": side}]}
+    euler = math.pi**2 / 100.0
+    assert gapbeam.solve({**made, "analysis": {"buckling": 1}}).buckling == pytest.approx([euler / 0.05], rel=1e-14)
+    for N in (0.11, 1.0, 19.0, 21.0, 1e3):
+        result = gapbeam.solve({**made, "beam": {**made["beam"], "N": -N}})
+        assert share_of(result) == pytest.approx(euler / N, rel=1e-5)
+        assert max((w for _, w in result.motion), key=abs) == pytest.approx(-1.0 if side == "below" else 1.0)
+    # Its weight presses it on
+    heavy = {**made, "beam": {**made["beam"], "N": -1.0}, "loads": [{"type": "uniform", "q": 1.0 if side == "below" else -1.0}]}
+    assert gapbeam.solve(heavy).status == "solved"
+
+
 def test_a_hinge_with_slack_turns_under_next_to_nothing():
     made = scene([1.0, 1.0], [at(0), at(1, side="below"), at(2)], EI=1.0, N=-1.0) | {"hinges": [{"x": 0.5, "slack": 0.01}]}
     assert share_of(gapbeam.solve(made)) == 0.0
