@@ -40,9 +40,9 @@ contains
         if (any((before .neqv. after) .and. merge(was_far, is_far, after))) then
             holds = findloc(after .and. .not. before, .true., 1)
             if (holds == 0) then
-                ! A law that goes back to an earlier piece
-                k = findloc((before .neqv. after) .and. was_far, .true., 1)
-                if (k > 0) call add_event(path, factor, k, gapbeam_turns)
+                ! A law that goes back to an earlier piece, from the end of which it has lost its hold
+                k = findloc((before .neqv. after) .and. was_far .and. .not. is_far, .true., 1)
+                if (k > 0 .and. any((before .neqv. after) .and. .not. was_far)) call add_event(path, factor, k, gapbeam_turns)
             end if
         end if
         do pass = 1, 2

@@ -29,10 +29,10 @@ contains
         assembled%model%supports(1) = support_type(node=0, side=gapbeam_below, law=law, parameter=parameter)
         place%past = 0.001_wp
         place%reached = law_force(law, parameter, place%past)
-        call audit_laws(assembled, [1], [place], place%past, error)
+        call audit_laws(assembled, [1], [place], place%past, place%reached, error)
         call check(.not. allocated(error), "on the law")
         place%reached = place%reached*(1 + 1e-9_wp)
-        call audit_laws(assembled, [1], [place], place%past, error)
+        call audit_laws(assembled, [1], [place], place%past, place%reached, error)
         call check(allocated(error), "beside it")
         if (allocated(error)) call check(index(error%message, "support 1 of 1: law") > 0, "named")
     end subroutine audits
