@@ -109,19 +109,21 @@ def test_a_curve_that_is_just_touched(name):
     [{"type": "tanh", "stiffness": 500.0, "limit": 80.0}, {"type": "hyperbolic", "stiffness": 500.0, "limit": 80.0},
      {"type": "cubic", "k1": 300.0, "k3": 1e5}],
 )  # fmt: skip
-def test_a_settled_support_that_next_to_nothing_reaches(law):
+@pytest.mark.parametrize("side", ["both", "below"])
+def test_a_settled_support_that_next_to_nothing_reaches(side, law):
     """R = k (d F/F0 - s) to first order, which the last digits of the deflection leave; tangents were not taken for settled."""
-    EI, L, s = 3000.0, 5.5, 0.006
-    # Of the beam without the support, in the middle of its two spans under a force at 0.4 of the first
-    softness = 2 * L**3 / (12 * EI) * 0.2 * (3 - 4 * 0.2**2)
+    EI, s = 3000.0, 0.006
     stiffness = law.get("stiffness", law.get("k1"))
-    beside = 1 + stiffness * (2 * L) ** 3 / (48 * EI)
-    for share in (0.0, 1e-16, -1e-16, 3e-16, -1e-14, 1e-13, -1e-12):
-        loads = [{"type": "force", "x": 0.4 * L, "F": s / softness * (1 + share)}]
-        supports = [{"node": 0}, {"node": 1, "law": law, "settlement": s}, {"node": 2}]
-        made = {"beam": {"spans": [L, L], "EI": EI}, "supports": supports, "loads": loads}
-        reaction = gapbeam.solve(made).steps[-1].reaction[1]
-        assert reaction == pytest.approx(stiffness * s * share / beside, abs=16e-16 * stiffness * s)
+    for L in np.linspace(3.0, 8.0, 13):
+        # Of the beam without the support, in the middle of its two spans under a force at 0.4 of the first
+        softness = 2 * L**3 / (12 * EI) * 0.2 * (3 - 4 * 0.2**2)
+        beside = 1 + stiffness * (2 * L) ** 3 / (48 * EI)
+        supports = [{"node": 0}, {"node": 1, "side": side, "law": law, "settlement": s}, {"node": 2}]
+        for share in (0.0, 1e-16, -1e-16, 3e-16, -1e-14, 1e-13, -1e-12):
+            loads = [{"type": "force", "x": 0.4 * L, "F": s / softness * (1 + share)}]
+            made = {"beam": {"spans": [L, L], "EI": EI}, "supports": supports, "loads": loads}
+            expected = stiffness * s * (share if side == "both" else max(share, 0.0)) / beside
+            assert gapbeam.solve(made).steps[-1].reaction[1] == pytest.approx(expected, abs=16e-16 * stiffness * s)
 
 
 def test_a_compressed_beam_without_loads_on_a_curve():
