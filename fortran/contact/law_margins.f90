@@ -5,7 +5,7 @@
 module gapbeam_law_margins
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: answer_type
-    use gapbeam_polyline, only: node_support_type, breakpoint_margin, is_watched, past_level
+    use gapbeam_polyline, only: node_support_type, breakpoint_margin, breakpoint_slopes, is_steeper, is_watched, past_level
     use gapbeam_law, only: both
     implicit none
     private
@@ -85,10 +85,15 @@ contains
         real(wp), intent(out) :: rate, level
         !> Is the margin a force
         logical, intent(out) :: by_force
-        real(wp) :: none(size(supports)), margin, rounding
+        real(wp) :: here, there
+        integer :: from
+        logical :: adjacent
 
-        none(:) = 0.0_wp
-        call margin_in_scheme(supports, closed, k, 0.0_wp, 0.0_wp, none, none, margin, rounding, by_force)
+        by_force = closed(k)
+        if (supports(k)%breakpoint > 0) then
+            call breakpoint_slopes(supports, closed, k, adjacent, from, here, there)
+            by_force = .not. supports(k)%passed .and. adjacent .and. is_steeper(here, there)
+        end if
         rate = 1.0_wp
         if (by_force) rate = abs(merge(supports(k)%stiffness, supports(k)%before, closed(k)))
         level = abs(supports(k)%contact)
@@ -115,18 +120,19 @@ contains
         real(wp), intent(in) :: share
         !> The scheme, shape (m)
         logical, intent(inout) :: closed(:)
-        real(wp) :: none(size(supports)), margin, rounding
+        real(wp) :: none(size(supports)), next_to_nothing, margin, rounding
         logical :: now(size(closed)), by_force
         integer :: k
 
         none(:) = 0.0_wp
+        next_to_nothing = share*maxval(abs(reaction))
         now(:) = closed
         do k = 1, size(supports)
             if (.not. is_watched_in(supports, now, k)) cycle
             ! Margins are forces along the steeper one of two pieces: nothing else can be lost
             call margin_in_scheme(supports, now, k, deflection(supports(k)%node), 0.0_wp, reaction, none, margin, rounding, &
                                   by_force)
-            if (by_force .and. abs(margin) <= share*maxval(abs(reaction))) closed(k) = .not. now(k)
+            if (by_force .and. abs(margin) <= next_to_nothing) closed(k) = .not. now(k)
         end do
     end subroutine let_go
 

@@ -15,7 +15,7 @@ module gapbeam_polyline
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: node_support_type, piece_that_acts, piece_force, breakpoint_margin, is_watched
+    public :: node_support_type, piece_that_acts, piece_force, breakpoint_margin, breakpoint_slopes, is_steeper, is_watched
     public :: past_level, vertical_pieces
     public :: open_from, advance_one_segment, jump_to_plateau, coincide, last_breakpoint, join_pieces
     public :: break_law, find_unit, extend_piece, extend_pieces
@@ -147,11 +147,8 @@ contains
         if (supports(k)%passed) return
         call breakpoint_slopes(supports, closed, k, adjacent, from, here, there)
         associate (s => supports(k))
-            if (.not. adjacent) then
-                if (abs(here) > huge(here)) return
-            else
-                by_force = abs(here) > abs(there) .or. abs(here) > huge(here)
-            end if
+            if (.not. adjacent .and. abs(here) > huge(here)) return
+            by_force = adjacent .and. is_steeper(here, there)
             if (by_force) then
                 margin = s%side*reaction(from) - s%force
                 if (here < 0.0_wp) margin = -margin
@@ -163,6 +160,14 @@ contains
         end associate
         if (.not. closed(k)) margin = -margin
     end subroutine breakpoint_margin
+
+    !> Does a force tell better than a deflection where a breakpoint is: by the slopes on this side of it and beyond
+    elemental function is_steeper(here, there) result(steeper)
+        real(wp), intent(in) :: here, there
+        logical :: steeper
+
+        steeper = abs(here) > abs(there) .or. abs(here) > huge(here)
+    end function is_steeper
 
     !> Is a breakpoint beside the piece that acts, and the slopes on this side of it and beyond
     pure subroutine breakpoint_slopes(supports, closed, k, adjacent, from, here, there)

@@ -25,6 +25,8 @@ module gapbeam_region_responses
         type(response_type), allocatable :: response(:)
         !> How fast supports move themselves with the factor (while settlements grow with the dead loads), shape (size(supports))
         real(wp), allocatable :: settling(:)
+        !> Greatest and least inverse of the lengths of the spans, and greatest couple at the end of a span by a unit turn of it
+        real(wp) :: inverse(2), stiffest
         !> The scheme solved last; is there a unique solution
         logical, allocatable :: closed(:)
         logical :: regular = .false.
@@ -55,6 +57,8 @@ contains
         call new_lines(beam, responses%lines_type)
         allocate (responses%response(size(beam%supports)), responses%settling(size(beam%supports)))
         responses%settling(:) = 0.0_wp
+        responses%inverse(:) = [maxval(beam%links%inverse), minval(beam%links%inverse)]
+        responses%stiffest = max(0.0_wp, maxval(12*beam%links%inverse/beam%links%bending, beam%links%bending > 0.0_wp))
         allocate (responses%closed(size(beam%supports)), source=.false.)
     end subroutine new_responses
 
@@ -114,16 +118,16 @@ contains
         integer :: k, kind
         logical :: by_force
 
-        associate (live => responses%live, links => beam%links)
-            moves(1) = maxval(abs(live%answers(0:size(links))%deflection))
-            moves(2) = moves(1)*maxval(links%inverse) + maxval(live%turn_size)
-            holds(1) = max(0.0_wp, maxval(12*links%inverse*moves(2)/links%bending, links%bending > 0.0_wp))
-            holds(2) = holds(1)/minval(links%inverse)
+        associate (live => responses%live, n => size(beam%links))
+            moves(1) = maxval(abs(live%answers(0:n)%deflection))
+            moves(2) = moves(1)*responses%inverse(1) + maxval(live%turn_size)
+            holds(1) = responses%stiffest*moves(2)
+            holds(2) = holds(1)/responses%inverse(2)
             do k = 1, size(responses%closed)
                 associate (response => responses%response(k))
                     response = response_of(beam, responses%closed, k, responses%lines_type)
                     ! What statics leaves at rest has a rate of what refinement leaves there, and no size beside it tells that
-                    kind = merge(2, 1, beam%supports(k)%node > size(links))
+                    kind = merge(2, 1, beam%supports(k)%node > n)
                     call margin_rates(beam%supports, responses%closed, k, slope, level, by_force)
                     rate = holds(kind)
                     if (slope <= huge(slope)) rate = slope*moves(kind)

@@ -77,7 +77,7 @@ contains
                             merge(-way, way, now(k))*s%side*shape%at_nodes(s%node) < -no_deflection
                     end associate
                 end do
-                presses = .not. on_ground(at) .and. presses_ground(ground, shape, way)
+                presses = .not. on_ground(at) .and. mode_presses(ground, shape, way)
                 if (.not. (presses .or. any(wrong))) then
                     leaves = .true.
                     share = merge(value(1), 0.0_wp, value(1) > tiny(1.0_wp)/epsilon(1.0_wp))
@@ -113,7 +113,7 @@ contains
     end function off_ground
 
     !> Does a mode, one way, go into ground that acts one way
-    pure function presses_ground(ground, shape, way) result(presses)
+    pure function mode_presses(ground, shape, way) result(presses)
         type(ground_type), intent(in) :: ground
         type(mode_shape_type), intent(in) :: shape
         !> 1 or -1
@@ -127,7 +127,7 @@ contains
                 presses = presses .or. way*ground%layers(k)%side*shape%deflection(i) > no_deflection
             end do
         end do
-    end function presses_ground
+    end function mode_presses
 
     !> Acts any load, or anything else by which supports push
     function is_loaded(ground, solution) result(it_is)
