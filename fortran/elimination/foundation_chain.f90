@@ -7,6 +7,9 @@
 !> sign. Links are so short there that none buckles by itself, and the pivots tell whether the beam does (Sylvester; Wittrick and
 !> Williams 1971).
 !>
+!> Under compression a pivot may be zero by chance, where the beam up to there would buckle by itself: then a little stiffness at
+!> the node makes up for it, which refinement takes out again.
+!>
 !> A pivot is zero where a rigid link goes on from a node whose deflection and rotation are known, as at a clamp. Then so is the
 !> deflection at its other end, and the moment follows from equilibrium there on the way back.
 module gapbeam_foundation_chain
@@ -22,6 +25,9 @@ module gapbeam_foundation_chain
 
     !> One more way to eliminate a node: the rigid link behind it tells the deflection at the next one
     integer, parameter :: w_ahead = 7
+    !> Below this share of what cancels in it a pivot is rounding; share of the stiffness there that is put in then: as much is
+    !> lost by it as by rounding, and refinement squares that
+    real(wp), parameter :: nothing_left = 64*epsilon(1.0_wp), little_stiffness = sqrt(epsilon(1.0_wp))
 
 contains
 
@@ -76,15 +82,14 @@ contains
                         if (held) then
                             p%kind = both_known
                             next = [link%fbb, link%pb, link%gbb]
-                        else if (abs(carried + link%gaa) > 0.0_wp) then
+                        else if (abs(carried + link%gaa) > 0.0_wp .or. abs(link%gaa) > 0.0_wp) then
+                            if (abs(carried + link%gaa) <= nothing_left*abs(link%gaa)) then
+                                carried = carried + little_stiffness*abs(link%gaa)
+                            end if
                             p%kind = m_known
                             p%reciprocal = 1/(carried + link%gaa)
                             next = [link%fbb + link%p2**2*p%reciprocal, (carried*link%pb + link%s6)*p%reciprocal, &
                                     (carried*link%gbb + link%dg)*p%reciprocal]
-                        else if (abs(link%gaa) > 0.0_wp) then
-                            ! Compression takes all that carries it
-                            state = band_mechanism
-                            return
                         else
                             p%kind = statics
                             next = 0.0_wp
@@ -106,6 +111,11 @@ contains
                     else
                         p%kind = full
                         divisor = p%a*(carried + link%gaa) + p%b**2
+                        if (abs(divisor) <= nothing_left*(abs(p%a)*max(abs(carried), abs(link%gaa)) &
+                                                          + max(abs(beta), abs(link%pa))**2)) then
+                            carried = carried + little_stiffness*max(abs(carried), abs(link%gaa))
+                            divisor = p%a*(carried + link%gaa) + p%b**2
+                        end if
                         if (.not. abs(divisor) > 0.0_wp) then
                             state = band_mechanism
                             return

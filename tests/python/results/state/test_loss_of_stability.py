@@ -140,3 +140,24 @@ def test_columns_without_loads_beside_elements(seed):
     assert gapbeam.solve(scene(spans, supports, EI=1.0, N=-0.99 * least)).status == "solved"
     result = gapbeam.solve(scene(spans, supports, EI=1.0, N=-1.01 * least))
     assert share_of(result) == pytest.approx(1 / 1.01, rel=1e-3)
+
+
+@pytest.mark.parametrize("behind", [False, True])
+@pytest.mark.parametrize("off", [0.0, 1e-15, -1e-15, 1e-12])
+def test_a_part_that_would_buckle_by_itself_by_chance(off, behind):
+    """N = k L: elimination from the spring on comes to a pivot that is rounding, whether the rest holds the beam or does not."""
+    spans, N, x, ends = [5.0, 3.0], [-250.0 * (1.0 + off), 0.0], 2.78, (0, 2)
+    if behind:
+        spans, N, x, ends = spans[::-1], N[::-1], 8.0 - x, ends[::-1]
+
+    def solved(*more):
+        supports = [at(ends[0], stiffness=50.0), at(ends[1]), *more]
+        return gapbeam.solve(scene(spans, supports, [force(x, 10.0)], EI=1000.0, N=N) | {"analysis": {"buckling": 1}})
+
+    held = solved(at(1))
+    assert held.status == "solved"
+    assert held.buckling == pytest.approx([1.14731604961708], rel=4e-12)
+    total = np.sum(held.steps[-1].reaction)
+    assert total == pytest.approx(10.0, rel=1e-14)
+    for more in ((), (at(1, side="above"),)):
+        assert share_of(solved(*more)) == pytest.approx(0.90334, rel=1e-5)
