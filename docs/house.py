@@ -20,7 +20,7 @@ FORTRAN = {
     "contact": "which supports act: laws, signs, search for the contact state, zones on the ground",
     "precision": "extended precision, audit of every answer, certificates and error bounds",
     "scene": "from the user's numbers to the assembled model",
-    "response": "what is asked of a state: fields, extremes, pressures, values at supports",
+    "response": "what is asked of a state: fields, extremes, pressures, supports",
     "continuation": "from event to event, through limit points, over ground",
     "moving_load": "trains, what they make at most, influence lines",
     "cases": "many cases, side by side in wide registers, and combinations",

@@ -218,7 +218,7 @@ module gapbeam_limits
     !> Looks without progress in which all that moves the wrong way is passed; tuned. Read by continuation/outgoing_directions
     integer, parameter :: looks_without_progress = 3
     !> Segments without length in turn, beyond four for every breakpoint, after which a path is given up; tuned. Read by
-    !> continuation/history, continuation/axial_path and continuation/ground_along_path
+    !> continuation/history, response/axial_walk and continuation/ground_along_path
     integer, parameter :: most_idle_segments = 1000
     !> Changes of the contact state in an interval of positions, beside most_of_each; tuned. Read by moving_load/train_path
     integer, parameter :: most_train_changes = 200

@@ -18,7 +18,7 @@ module gapbeam_path_tolerances
     public :: most_train_share, sliver, least_train_share, train_rounding, most_lost, longest_way, far_below, lebesgue, same_tie
 
     !> What acts at this share of the way acts from the beginning: at factor 0 a beam without dead load lies on the ground without
-    !> any force; tuned. Read by continuation/ground_path and, through the engine, by gapbeam.plots
+    !> any force; tuned. Read by continuation/ground_path, continuation/ground_events and, through the engine, by gapbeam.plots
     real(wp), parameter :: load_begin = 2.0_wp**(-40)
     !> Curves come to their limit where the beam has gone without end: a path is followed until this share of it is missing, or
     !> that; tuned. Read by continuation/ground_problem and, through the engine, by gapbeam.results
@@ -51,9 +51,9 @@ module gapbeam_path_tolerances
     !> by more in doubles are found in quadruple precision. Read by continuation/path, continuation/stretch
     real(wp), parameter :: agreement = 1e-9_wp
     !> Share of the greatest reaction below which that of a support that rubs is rounding, as where it opens: what it leaves of
-    !> friction would be held by nothing. Read by continuation/axial_loads
+    !> friction would be held by nothing. Read by continuation/axial_friction
     real(wp), parameter :: no_friction = 2.0_wp**(-46)
-    !> The same of differences of reactions: friction of supports that carry as much is the same. Read by continuation/axial_loads
+    !> The same of differences of reactions: friction of supports that carry as much is the same. Read by continuation/axial_friction
     real(wp), parameter :: same_reaction = 2.0_wp**(-46)
     !> Share of the loads below which what pushes a node over ground along the beam is rounding. Read by contact/ground_along_slip
     real(wp), parameter :: no_push = 2.0_wp**(-46)

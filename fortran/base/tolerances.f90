@@ -339,7 +339,7 @@ module gapbeam_tolerances
     !> precision/ground_limit
     real(qp), parameter :: no_ground_work = 8*epsilon(1.0_wp)
     !> Numbers in quadruple precision that are smaller beside what they are made of are rounding: excess of work, displacements,
-    !> forces. Read by continuation/axial_path, precision/ground_limit, precision/ground_solution, precision/ground_ties
+    !> forces. Read by precision/ground_limit, precision/ground_solution, precision/ground_ties, response/axial_walk
     real(qp), parameter :: fine_rounding = 2.0_qp**(-90)
     !> How near to a motion its search comes: the work is wrong by the square of that. Read by precision/ground_limit
     real(qp), parameter :: near_motion = 2.0_qp**(-52)

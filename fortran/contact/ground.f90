@@ -30,8 +30,9 @@ module gapbeam_ground
         real(wp), allocatable :: supports(:, :)
         !> Of the layers at both ends of their pieces, shape (2, 2, size(layers))
         real(wp), allocatable :: layers(:, :, :)
-        !> Tension of the pieces, shape (2, n); not allocated where it does not grow
-        real(wp), allocatable :: tension(:, :)
+        !> Tension of the pieces from given load factors on, and by how much it grows from there, shapes (m) and (2, n, m); the
+        !> first factor is 0; not allocated where it does not grow
+        real(wp), allocatable :: begins(:), tension(:, :, :)
         !> By how much more they are at the right ends, shape (2, n); not allocated where they are constant
         real(wp), allocatable :: tension_change(:, :)
     end type moving_type

@@ -15,6 +15,7 @@ contains
         !> As it is at any factor
         type(ground_type), intent(inout) :: ground
         real(wp), intent(in) :: factor
+        integer :: k
 
         if (.not. allocated(ground%moving)) return
         associate (moving => ground%moving, layers => ground%layers)
@@ -23,18 +24,53 @@ contains
             layers%contact_b = moving%layers(1, 2, :) + factor*moving%layers(2, 2, :)
         end associate
         if (.not. allocated(ground%moving%tension)) return
-        associate (at_zero => ground%moving%tension(1, :), growth => ground%moving%tension(2, :))
-            ground%pieces%tension = at_zero + factor*growth
-            ground%pieces%compression = max(0.0_wp, -at_zero, -(at_zero + greatest_near(factor)*growth))
+        associate (begins => ground%moving%begins)
+            ground%pieces%tension = tension_at(last_begun(begins, factor), factor)
+            ground%pieces%compression = max(0.0_wp, -tension_at(last_begun(begins, greatest_near(factor)), greatest_near(factor)))
+            do k = 1, size(begins)
+                ground%pieces%compression = max(ground%pieces%compression, -tension_at(k, begins(k)))
+            end do
         end associate
         if (.not. allocated(ground%moving%tension_change)) return
-        associate (at_zero => ground%moving%tension(1, :), growth => ground%moving%tension(2, :), &
-                   more_at_zero => ground%moving%tension_change(1, :), more => ground%moving%tension_change(2, :))
+        associate (begins => ground%moving%begins, more_at_zero => ground%moving%tension_change(1, :), &
+                   more => ground%moving%tension_change(2, :))
             ground%pieces%tension_change = more_at_zero + factor*more
-            ground%pieces%compression = max(ground%pieces%compression, -(at_zero + more_at_zero), &
-                                            -(at_zero + more_at_zero + greatest_near(factor)*(growth + more)))
+            ground%pieces%compression = max(ground%pieces%compression, -(tension_at(last_begun(begins, greatest_near(factor)), &
+                                                                                    greatest_near(factor)) &
+                                                                         + more_at_zero + greatest_near(factor)*more))
+            do k = 1, size(begins)
+                ground%pieces%compression = max(ground%pieces%compression, -(tension_at(k, begins(k)) + more_at_zero &
+                                                                             + begins(k)*more))
+            end do
         end associate
+
+    contains
+
+        !> Tensions at a load factor on a stretch of their way
+        pure function tension_at(stretch, factor) result(tension)
+            integer, intent(in) :: stretch
+            real(wp), intent(in) :: factor
+            real(wp) :: tension(size(ground%pieces))
+
+            associate (moving => ground%moving)
+                tension(:) = moving%tension(1, :, stretch) + (factor - moving%begins(stretch))*moving%tension(2, :, stretch)
+            end associate
+        end function tension_at
+
     end subroutine move_ground
+
+    !> The last stretch that begins before a load factor, or at it
+    pure function last_begun(begins, factor) result(stretch)
+        !> From 0 on, all of one sign
+        real(wp), intent(in) :: begins(:), factor
+        integer :: stretch, k
+
+        stretch = 1
+        do k = 2, size(begins)
+            if (abs(begins(k)) > abs(factor)) exit
+            stretch = k
+        end do
+    end function last_begun
 
     !> Load factor for which a beam is cut at those near another one: the next power of 4, so that zones that are carried from one
     !> to another stay short enough

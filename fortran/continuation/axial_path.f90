@@ -2,45 +2,28 @@
 !> act, let go, yield, slip or stick.
 module gapbeam_axial_path
     use gapbeam_kinds, only: wp, qp
-    use gapbeam_tolerances, only: fine_rounding
-    use gapbeam_limits, only: most_idle_segments
-    use gapbeam_watch, only: end_if_stopped
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_not_converged, gapbeam_indeterminate, gapbeam_bad_input
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input
     use gapbeam_words, only: shown
-    use gapbeam_input_error, only: of_supports
-    use gapbeam_assembled_model, only: assembled_type, point_x
-    use gapbeam_axial_loads, only: make_chain, movement_of, set_loads, set_limits, find_reactions, drop_rounding, zeros_between
-    use gapbeam_axial_chain, only: chain_type, next_change, find_reach, stays_at_rest
-    use gapbeam_axial_progress, only: advance, change_pieces, settle, settle_link, note_rates, values_of
-    use gapbeam_axial_rates, only: moves_at_once, not_told
-    use gapbeam_axial_slip, only: find_rates_by_parts
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_axial_chain, only: stays_at_rest
+    use gapbeam_axial_walk, only: chain_walk_type, begin_walk, set_loads, go_to, begin_stretch, numbers_of
+    use gapbeam_axial_friction, only: set_limits, find_reactions, drop_rounding, zeros_between
     use gapbeam_history_stretch, only: stretch_type, nothing_changes
     use gapbeam_history_record, only: history_type, limit_type, new_history, add_stretch, add_column, mechanism, no_limit, cut_off
     implicit none
     private
     public :: follow_along_axis
 
-    !> Rounds in which all links of wrong sign change at once, before one alone does
-    integer, parameter :: rounds_at_once = 8
-    !> Share of a stretch of bending below which what is left of it is rounding
-    real(qp), parameter :: no_way_left = 1e-26_qp
-
-    !> The chain on its way
-    type :: walk_type
-        type(assembled_type), pointer :: assembled => null()
-        type(chain_type) :: chain
-        !> Support of the model of every link
-        integer, allocatable :: support(:)
-        !> The path as it becomes
+    !> The chain on its way through the stretches of a path of bending
+    type, extends(chain_walk_type) :: walk_type
+        !> The stretch of bending at hand; is a part of it kept
+        type(stretch_type) :: bending
+        logical :: begun = .false.
+        !> The path as it becomes, and its most stretches
         type(history_type) :: path
-        !> Most stretches; changes without a way between them
-        integer :: most = 0, idle = 0
-        !> Values at the start of the stretch at hand
-        real(wp), allocatable :: start(:)
-        !> Contacts of the laws there, if some keep a set, shape (size(chain%laws))
-        real(wp), allocatable :: contact(:)
-        !> Is a part of the stretch of bending at hand kept; does the chain move without end
-        logical :: begun = .false., lost = .false.
+        integer :: most = 0
+    contains
+        procedure :: keep
     end type walk_type
 
 contains
@@ -59,9 +42,8 @@ contains
         type(assembled_type), pointer :: beam
         integer :: first(0:history%number), last(0:history%number), k
 
-        walk%assembled => assembled
         walk%most = most
-        call make_chain(assembled, walk%chain, walk%support)
+        call begin_walk(assembled, walk)
         call new_history(history%at_limit, walk%path)
         allocate (walk%path%along)
         allocate (walk%path%along%support, source=walk%support)
@@ -73,11 +55,11 @@ contains
             walk%begun = .false.
             beam => assembled
             if (history%stretches(k)%leg == 0) beam => dead
-            call pass_stretch(walk, beam, history, k, error)
+            call pass_stretch(walk, assembled, beam, history, k, error)
             if (allocated(error)) return
             last(k) = walk%path%number
             first(k) = min(first(k), max(1, walk%path%number))
-            if (walk%lost .or. walk%path%ending == cut_off) exit
+            if (walk%lost .or. walk%full) exit
         end do
         call take_limits(history, walk, first, last, k)
         call move_alloc(walk%path%stretches, history%stretches)
@@ -88,9 +70,10 @@ contains
     end subroutine follow_along_axis
 
     !> Go along a stretch of bending
-    subroutine pass_stretch(walk, beam, history, k, error)
+    subroutine pass_stretch(walk, assembled, beam, history, k, error)
         type(walk_type), intent(inout) :: walk
-        !> With the loads of its leg
+        !> The beam, and with the loads of its leg
+        type(assembled_type), intent(in) :: assembled
         type(assembled_type), intent(in), target :: beam
         type(history_type), intent(in), target :: history
         integer, intent(in) :: k
@@ -100,22 +83,23 @@ contains
         real(wp) :: from_force(size(walk%support)), to_force(size(walk%support))
         integer :: i
 
+        walk%bending = history%stretches(k)
         associate (s => history%stretches(k), chain => walk%chain)
             if (s%skipped .or. .not. abs(s%to - s%from) > 0.0_wp) then
                 if (s%skipped .and. any(chain%rubs)) then
-                    call fatal_error(error, gapbeam_bad_input, "friction = "//trim(shown(walk%assembled%model%supports( &
+                    call fatal_error(error, gapbeam_bad_input, "friction = "//trim(shown(assembled%model%supports( &
                                      walk%support(findloc(chain%rubs, .true., 1)))%friction))//": at load factor "// &
                                      trim(shown(s%from))//" the beam jumps to another state, through which friction is not "// &
                                      "followed: give laws that do not fall, or no friction")
                     return
                 end if
-                call begin_stretch(walk)
-                call keep(walk, s, s%from, s%to, error)
+                call begin_stretch(walk, assembled)
+                call walk%keep(assembled, s%from, s%to, error)
                 return
             end if
-            call set_loads(walk%assembled, walk%support, s%leg, sign(1.0_wp, s%to - s%from), chain)
+            call set_loads(assembled, s%leg, sign(1.0_wp, s%to - s%from), walk)
             if (walk%path%number > 0 .and. stays_at_rest(chain)) then
-                call keep(walk, s, s%from, s%to, error)
+                call walk%keep(assembled, s%from, s%to, error)
                 return
             end if
             ends = [real(s%to, qp)]
@@ -127,7 +111,7 @@ contains
                 ends = [zeros_between(s%from, s%to, from_force, to_force), ends]
             end if
             at = s%from
-            call begin_stretch(walk)
+            call begin_stretch(walk, assembled)
             do i = 1, size(ends)
                 if (any(chain%rubs)) then
                     call limits_at(at, from_limit)
@@ -136,8 +120,12 @@ contains
                     chain%limit_rate(:) = 0.0_qp
                     if (abs(ends(i) - at) > 0.0_qp) chain%limit_rate(:) = (to_limit - from_limit)/abs(ends(i) - at)
                 end if
-                call go_to(walk, s, at, ends(i), error)
-                if (allocated(error) .or. walk%lost .or. walk%path%ending == cut_off) return
+                call go_to(walk, assembled, at, ends(i), error)
+                if (walk%lost) then
+                    walk%path%ending = mechanism
+                    walk%path%limits = [limit_type(mechanism, s%leg, walk%lost_at, walk%path%number)]
+                end if
+                if (allocated(error) .or. walk%lost .or. walk%full) return
                 if (any(chain%rubs)) call set_limits(chain, to_limit)
                 at = ends(i)
             end do
@@ -151,7 +139,7 @@ contains
             real(qp), intent(out) :: limit(:)
             real(qp) :: share
 
-            associate (s => history%stretches(k), given => walk%assembled%model%supports(walk%support))
+            associate (s => history%stretches(k), given => assembled%model%supports(walk%support))
                 share = (factor - s%from)/(real(s%to, qp) - s%from)
                 limit(:) = given%friction*abs((1 - share)*from_force + share*to_force)
                 where (.not. walk%chain%rubs) limit = 0.0_qp
@@ -160,135 +148,10 @@ contains
 
     end subroutine pass_stretch
 
-    !> Go from one load factor to another, limits of friction being linear between them
-    subroutine go_to(walk, s, from, to, error)
-        type(walk_type), intent(inout) :: walk
-        !> Stretch of bending
-        type(stretch_type), intent(in) :: s
-        real(qp), intent(in) :: from, to
-        type(error_type), allocatable, intent(out) :: error
-        integer, allocatable :: links(:), steps(:)
-        real(qp) :: at, way
-        integer :: outcome, place, single, whole(2), reach(2), i
-        logical :: dragged
-
-        at = from
-        whole = [0, size(walk%chain%flexibility)]
-        reach = whole
-        walk%idle = 0
-        walk%chain%anew = .true.
-        do
-            call end_if_stopped(walk%assembled%beam%watch, error)
-            if (allocated(error)) return
-            dragged = .true.
-            do while (dragged)
-                call find_rates_by_parts(walk%chain, reach, outcome, place, dragged)
-                if (outcome == not_told) exit
-            end do
-            call note_rates(walk%chain, reach)
-            call begin_stretch(walk)
-            if (outcome == not_told) then
-                call refuse_shared(walk, place, real(at, wp), error)
-                return
-            end if
-            call next_change(walk%chain, outcome == moves_at_once, reach, way, links, steps)
-            ! Where a limit and what it holds vanish together, rounding is no motion
-            if (outcome == moves_at_once .and. abs(to - at) <= no_way_left*abs(to - from)) return
-            if (outcome == moves_at_once) then
-                if (size(links) == 0) then
-                    walk%lost = .true.
-                    walk%path%ending = mechanism
-                    walk%path%limits = [limit_type(mechanism, s%leg, real(at, wp), walk%path%number)]
-                    return
-                end if
-                if (way > 0.0_qp) call advance(walk%chain, way, .true.)
-            else
-                ! What happens at its end belongs to what follows
-                if (way >= abs(to - at) - no_way_left*abs(to - from)) then
-                    call go_on(to)
-                    return
-                end if
-                if (way > 0.0_qp) call go_on(at + sign(way, to - from))
-                if (allocated(error) .or. walk%path%ending == cut_off) return
-            end if
-            if (way > 0.0_qp) then
-                walk%idle = 0
-            else
-                walk%idle = walk%idle + 1
-            end if
-            if (walk%idle > 4*size(walk%support) + most_idle_segments) then
-                call fatal_error(error, gapbeam_not_converged, "along the beam the path does not leave load factor "// &
-                                 trim(shown(real(at, wp)))//", where rounding hides which support slips first: bring the "// &
-                                 "magnitudes of the beam nearer to each other")
-                return
-            end if
-            single = size(links)
-            if (walk%idle > rounds_at_once) single = 1
-            reach = whole
-            if (outcome /= moves_at_once) reach = find_reach(walk%chain, links(:single))
-            call settle(walk%chain, reach)
-            do i = 1, single
-                call settle_link(walk%chain, links(i))
-            end do
-            call change_pieces(walk%chain, links(:single), steps(:single))
-        end do
-
-    contains
-
-        !> Go on with the load, and keep the stretch
-        subroutine go_on(next)
-            real(qp), intent(in) :: next
-            real(wp) :: begin, end
-
-            begin = real(at, wp)
-            end = real(next, wp)
-            call advance(walk%chain, abs(next - at), .false.)
-            if (.not. abs(to - next) > 0.0_qp) then
-                ! At the end all digits are those of quadruple precision
-                call settle(walk%chain, whole)
-                call note_rates(walk%chain, whole)
-            end if
-            if (abs(end - begin) > 0.0_wp) call keep(walk, s, begin, end, error)
-            at = next
-        end subroutine go_on
-
-    end subroutine go_to
-
-    !> Begin a stretch: the numbers of the chain, and where laws that keep a set have gone, dead movements of supports included
-    pure subroutine begin_stretch(walk)
-        type(walk_type), intent(inout) :: walk
-        integer :: l
-
-        walk%start = numbers_of(walk)
-        if (.not. any(walk%chain%keeps_set)) return
-        if (.not. allocated(walk%contact)) allocate (walk%contact(size(walk%chain%laws)))
-        associate (chain => walk%chain)
-            do l = 1, size(walk%support)
-                associate (k => chain%first(l), last => chain%last(l))
-                    walk%contact(k:last) = real(chain%laws(k:last)%contact + movement_of(walk%assembled, walk%support(l)), wp)
-                end associate
-            end do
-        end associate
-    end subroutine begin_stretch
-
-    !> Numbers of the chain, of which rounding leaves nothing where it comes to rest: first displacements, then forces
-    pure function numbers_of(walk) result(values)
-        type(walk_type), intent(in) :: walk
-        real(wp), allocatable :: values(:)
-
-        values = values_of(walk%chain)
-        if (.not. allocated(walk%start)) return
-        associate (before => abs(walk%start), n => size(walk%chain%flexibility) + 1)
-            where (abs(values(:n)) <= real(fine_rounding, wp)*maxval(before(:n))) values(:n) = 0.0_wp
-            where (abs(values(n + 1:)) <= real(fine_rounding, wp)*maxval(before(n + 1:))) values(n + 1:) = 0.0_wp
-        end associate
-    end function numbers_of
-
     !> Keep a stretch of the path, and the numbers of the chain at its ends
-    subroutine keep(walk, s, from, to, error)
-        type(walk_type), intent(inout) :: walk
-        !> Of bending
-        type(stretch_type), intent(in) :: s
+    subroutine keep(walk, assembled, from, to, error)
+        class(walk_type), intent(inout) :: walk
+        type(assembled_type), intent(in) :: assembled
         real(wp), intent(in) :: from, to
         type(error_type), allocatable, intent(out) :: error
         type(stretch_type) :: kept
@@ -296,9 +159,10 @@ contains
 
         if (walk%path%number >= walk%most) then
             walk%path%ending = cut_off
+            walk%full = .true.
             return
         end if
-        kept = s
+        kept = walk%bending
         if (walk%begun) call nothing_changes(kept)
         walk%begun = .true.
         kept%from = from + 0.0_wp
@@ -317,7 +181,7 @@ contains
         if (allocated(error)) return
         kept%ends = ends
         call add_stretch(kept, walk%path, error)
-        call begin_stretch(walk)
+        call begin_stretch(walk, assembled)
 
     contains
 
@@ -363,25 +227,5 @@ contains
             history%others(j)%stretch = first(min(history%others(j)%stretch, reached, ubound(first, 1)))
         end do
     end subroutine take_limits
-
-    !> Refuse to tell what statics cannot
-    subroutine refuse_shared(walk, place, factor, error)
-        type(walk_type), intent(in) :: walk
-        !> One of the links
-        integer, intent(in) :: place
-        real(wp), intent(in) :: factor
-        type(error_type), allocatable, intent(out) :: error
-        real(wp) :: x
-
-        associate (assembled => walk%assembled)
-            x = point_x(assembled, assembled%support_point(walk%support(place)))
-            call fatal_error(error, gapbeam_indeterminate, "the support at x = "//trim(shown(x))//" and another one hold "// &
-                             "the beam rigidly along its axis with nothing between them that gives way, at load factor "// &
-                             trim(shown(factor))//", so statics cannot tell what each of them takes: give the beam a finite "// &
-                             "EA, or one of them a finite stiffness")
-            error%table = of_supports
-            error%entry = walk%support(place)
-        end associate
-    end subroutine refuse_shared
 
 end module gapbeam_axial_path

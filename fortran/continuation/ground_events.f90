@@ -1,10 +1,12 @@
 !> Load path of a beam on the ground, event by event and segment by segment.
 module gapbeam_ground_events
     use gapbeam_kinds, only: wp
+    use gapbeam_path_tolerances, only: load_begin
     use gapbeam_error, only: error_type, failed
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_pieces, only: acts_in, what_happens, no_change
+    use gapbeam_axial_links, only: links_type, link_change_type, follow_links, changes_along
     use gapbeam_zone_margin, only: change_type
     use gapbeam_ground_start, only: ground_start_type
     use gapbeam_path_problem, only: point_type
@@ -12,7 +14,7 @@ module gapbeam_ground_events
     implicit none
     private
     public :: ground_path_type, ground_event_type, ground_segment_type, held_type, note_changes, list_changes, add_segment, &
-        same_contact, beside
+        note_links, same_contact, beside
 
     !> A change of what holds the beam
     type :: ground_event_type
@@ -164,6 +166,56 @@ contains
             path%segment(path%segments)%closed = held%closed
         end select
     end subroutine add_segment
+
+    !> Changes of links along the beam, whose forces bending feels, in their order among the events; segments begin there, too
+    subroutine note_links(assembled, path, error)
+        type(assembled_type), intent(in) :: assembled
+        type(ground_path_type), intent(inout) :: path
+        !> No memory, or as for follow_links
+        type(error_type), allocatable, intent(out) :: error
+        type(links_type) :: links
+        type(link_change_type), allocatable :: changes(:)
+        integer :: k, i
+
+        call follow_links(assembled, path%last, links, error)
+        do k = 2, links%number
+            if (allocated(error)) return
+            associate (factor => links%ends(1, k))
+                ! What touches under the dead loads touches from the beginning
+                if (factor <= load_begin*path%last) cycle
+                allocate (changes, source=changes_along(assembled, links%closed(:, k - 1), links%closed(:, k)))
+                do i = 1, size(changes)
+                    associate (c => changes(i))
+                        call add_event(ground_event_type(factor, point_x(assembled, assembled%support_point(c%support)), &
+                                                         support=c%support, change=c%change), 0, path)
+                    end associate
+                end do
+                if (size(changes) > 0) call cut_segment(factor, path, error)
+                deallocate (changes)
+            end associate
+        end do
+    end subroutine note_links
+
+    !> Let a segment begin at a load factor with what acts there
+    subroutine cut_segment(factor, path, error)
+        real(wp), intent(in) :: factor
+        type(ground_path_type), intent(inout) :: path
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+        type(held_type) :: held
+        integer :: k
+
+        k = path%segments
+        do while (k > 1)
+            if (path%segment(k)%from <= factor) exit
+            k = k - 1
+        end do
+        if (.not. abs(path%segment(k)%from - factor) > 0.0_wp) return
+        held%closed = path%segment(k)%closed
+        call add_segment(factor, held, path, error)
+        if (allocated(error)) return
+        path%segment(k + 1:path%segments) = cshift(path%segment(k + 1:path%segments), -1)
+    end subroutine cut_segment
 
     !> What holds the beam of a state beside another one: what carries where both may move freely
     pure function beside(held, other) result(seen)

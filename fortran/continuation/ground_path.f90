@@ -8,7 +8,7 @@ module gapbeam_ground_path
     use gapbeam_solution, only: state_type
     use gapbeam_path_problem, only: point_type
     use gapbeam_walk, only: walk_along
-    use gapbeam_ground_events, only: ground_path_type, add_segment
+    use gapbeam_ground_events, only: ground_path_type, add_segment, note_links
     use gapbeam_ground_problem, only: ground_problem_type, new_ground_problem
     use gapbeam_steady_path, only: pass_steady
     implicit none
@@ -44,6 +44,9 @@ contains
         end if
         call new_ground_problem(assembled, factor, rule, state, problem)
         call go_along(problem, error)
+        if (allocated(assembled%axial%laws) .and. .not. allocated(error) .and. problem%path%segments > 0) then
+            call note_links(assembled, problem%path, error)
+        end if
         path = problem%path
         path%solves = problem%solves
         state = problem%state

@@ -11,6 +11,7 @@ module gapbeam_ground_problem
     use gapbeam_laws, only: law_bound
     use gapbeam_layers, only: has_limit, has_curves
     use gapbeam_ground, only: ground_type
+    use gapbeam_moved_ground, only: move_ground
     use gapbeam_filled_ground, only: any_falls
     use gapbeam_refined_ground, only: refine_ground, refine_links
     use gapbeam_ground_limit, only: find_limit
@@ -68,7 +69,8 @@ contains
         integer :: k
 
         problem%assembled => assembled
-        problem%ground = ground_of(assembled, 0.0_wp)
+        problem%ground = ground_of(assembled, last)
+        call move_ground(problem%ground, 0.0_wp)
         call refine_ground(problem%ground, problem%fine)
         problem%rule = rule
         problem%parameter = "load factor"

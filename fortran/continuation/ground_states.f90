@@ -102,7 +102,7 @@ contains
             held%on_curves = deflections_at_curves(problem%assembled, problem%state%deflection)
             call start_from(problem%state%ground, problem%state%closed, held%start)
             call find_zones(problem%assembled, problem%state%ground, held%zones, error)
-            held%loose = problem%state%indifferent
+            held%loose = problem%state%indifferent .and. .not. problem%state%loose_along
             if (held%loose .and. .not. allocated(error)) then
                 solution = problem%state%ground
                 held%carries = held%closed .and. .not. solution%undecided
@@ -325,8 +325,14 @@ contains
 
         do k = 1, parts
             next = problem%last*(real(k, wp)/parts)
-            if (next > point%at) return
+            if (next > point%at) exit
         end do
+        if (.not. allocated(problem%ground%moving)) return
+        if (.not. allocated(problem%ground%moving%begins)) return
+        ! Where axial forces begin to grow otherwise
+        associate (begins => problem%ground%moving%begins)
+            next = min(next, minval(begins, begins > point%at))
+        end associate
     end function next_stop
 
     !> Record what changes, and the segment that begins there

@@ -1,10 +1,9 @@
 !> Events of the supports along a load path, from stretch to stretch.
 module gapbeam_history_events
     use gapbeam_kinds, only: wp
-    use gapbeam_polyline, only: last_breakpoint
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_pieces, only: acting_type, acting_piece, acts_in, what_happens, no_change, gapbeam_turns, &
-        gapbeam_slips, gapbeam_sticks
+    use gapbeam_pieces, only: acting_type, acts_in, what_happens, no_change, gapbeam_turns
+    use gapbeam_axial_links, only: link_change_type, changes_along
     use gapbeam_events, only: event_type, add_event
     use gapbeam_history_stretch, only: stretch_type, pieces_type, enter_stretch
     use gapbeam_history_record, only: history_type, find_pieces
@@ -191,32 +190,16 @@ contains
         integer, intent(inout) :: number
         !> How many were added
         integer, intent(out) :: added
-        type(acting_type) :: before, after
-        integer :: k, last, change, first
+        type(link_change_type), allocatable :: changes(:)
+        integer :: k
 
-        first = number
-        added = 0
-        k = 1
-        associate (a => path%stretches(one)%along, b => path%stretches(other)%along, axial => assembled%axial)
-            do while (k <= size(axial%laws))
-                last = last_breakpoint(axial%laws, k)
-                if (any(a(k:last) .neqv. b(k:last))) then
-                    associate (side => assembled%model%supports(axial%support(k))%side)
-                        before = acting_piece(axial%laws(k:last), side, a(k:last))
-                        after = acting_piece(axial%laws(k:last), side, b(k:last))
-                    end associate
-                    if (axial%rubs(k)) then
-                        change = merge(gapbeam_sticks, gapbeam_slips, b(k) .neqv. b(last))
-                    else
-                        change = what_happens(before, after)
-                    end if
-                    if (change /= no_change) call add_event(event_type(path%stretches(other)%from, axial%support(k), &
-                                                                       after%condition, change, other), events, number)
-                end if
-                k = last + 1
-            end do
-        end associate
-        added = number - first
+        changes = changes_along(assembled, path%stretches(one)%along, path%stretches(other)%along)
+        added = size(changes)
+        do k = 1, added
+            associate (c => changes(k))
+                call add_event(event_type(path%stretches(other)%from, c%support, c%condition, c%change, other), events, number)
+            end associate
+        end do
     end subroutine find_changes_along
 
 end module gapbeam_history_events

@@ -18,6 +18,7 @@ module gapbeam_path_states
     use gapbeam_smooth_arc, only: arc_type, springs_at, is_lost
     use gapbeam_smooth_branches, only: tracer_at, point_at_factor
     use gapbeam_history_record, only: history_type, scheme_at, laws_at, same_laws
+    use gapbeam_axial_links, only: take_numbers
     use gapbeam_ground_along_states, only: take_ground_along
     use gapbeam_bedding_path, only: take_bedding
     use gapbeam_unloaded_laws, only: find_unloaded
@@ -91,7 +92,6 @@ contains
         type(error_type), allocatable, intent(out) :: error
         real(wp), allocatable :: values(:)
         real(wp) :: share
-        integer :: n, l
 
         if (allocated(beam%axial%bedding)) then
             call take_bedding(beam, history, stretch, factor, state, error)
@@ -104,22 +104,10 @@ contains
             share = 0.0_wp
             if (abs(s%to - s%from) > 0.0_wp) share = (factor - s%from)/(s%to - s%from)
             values = (1 - share)*along%columns(s%ends(1))%x + share*along%columns(s%ends(2))%x
-            n = size(state%tension)
-            state%displacement(:) = values(:n + 1)
-            state%tension(:) = values(n + 2:2*n + 1)
-            state%along = s%along
-            if (allocated(state%along_contact)) deallocate (state%along_contact)
+            call take_numbers(beam, values, along%support, s%along, state)
             if (allocated(s%along_contact)) state%along_contact = s%along_contact
+            state%loose_along = s%loose .and. .not. state%indifferent
             state%indifferent = state%indifferent .or. s%loose
-            state%axial_reaction(:) = 0.0_wp
-            if (allocated(state%along_force)) deallocate (state%along_force)
-            allocate (state%along_force(size(beam%model%supports)), source=0.0_wp)
-            do l = 1, size(along%support)
-                state%along_force(along%support(l)) = values(2*n + 1 + l)
-                associate (node => beam%axial%node(along%support(l)))
-                    state%axial_reaction(node) = state%axial_reaction(node) + values(2*n + 1 + l)
-                end associate
-            end do
         end associate
     end subroutine take_along
 

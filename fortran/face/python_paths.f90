@@ -232,24 +232,16 @@ subroutine gbhlin(beam, hist, ns, stretch, factor, laws, how, status, message)
     call put_laws(lines, laws)
 end subroutine gbhlin
 
-! What there is along the beam in a state on a path, put into the state and to the values of its supports
-subroutine gbhaxi(beam, hist, state, stretch, factor, nm, values, condit, force, slip, slides, loose, status, message)
+! What there is along the beam in a state on a path, put into the state
+subroutine gbhaxi(beam, hist, state, stretch, factor, status, message)
     use gapbeam_python_handles, only: error_type, handle_type, behind, report
     use gapbeam_path_states, only: take_along
-    use gapbeam_support_values, only: support_values, friction_values
     implicit none
     ! The beam with the loads of the leg, the path, the state at the factor on the stretch
     integer(8), intent(in) :: beam, hist, state
     ! From 1
     integer, intent(in) :: stretch
     double precision, intent(in) :: factor
-    integer, intent(in) :: nm
-    ! As from GBSOLV; state of every support of the scene (gapbeam_pieces); force of friction on the beam and how far it has gone
-    ! over the support, to the right; 1 where it slides to the right, -1 to the left
-    double precision, intent(out) :: values(nm + 1, 4), force(nm), slip(nm)
-    integer, intent(out) :: condit(nm), slides(nm)
-    ! 1 where the beam can move freely, 2 where it can along its axis only
-    integer, intent(out) :: loose
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     type(handle_type), pointer :: handle, found, solved
@@ -258,16 +250,34 @@ subroutine gbhaxi(beam, hist, state, stretch, factor, nm, values, condit, force,
     handle => behind(beam)
     found => behind(hist)
     solved => behind(state)
-    values = 0.0d0
-    associate (lowered => handle%beam%lowered, s => solved%result%state)
-        loose = merge(1, 2, s%indifferent)
-        call take_along(lowered, found%history%path, stretch, factor, s, error)
-        call support_values(lowered, s, values(:nm, 1), values(:nm, 2), values(:nm, 3), values(:nm, 4), condit)
-        call friction_values(lowered, s, force, slip, slides)
-        if (.not. s%indifferent) loose = 0
-    end associate
+    call take_along(handle%beam%lowered, found%history%path, stretch, factor, solved%result%state, error)
     call report(error, status, message)
 end subroutine gbhaxi
+
+! What supports do in a state with links along the beam
+subroutine gbalng(beam, state, nm, values, condit, force, slip, slides, loose)
+    use gapbeam_python_handles, only: handle_type, behind
+    use gapbeam_support_values, only: support_values, friction_values
+    implicit none
+    integer(8), intent(in) :: beam, state
+    integer, intent(in) :: nm
+    ! As from GBSOLV; state of every support of the scene (gapbeam_pieces); force of friction on the beam and how far it has gone
+    ! over the support, to the right; 1 where it slides to the right, -1 to the left
+    double precision, intent(out) :: values(nm + 1, 4), force(nm), slip(nm)
+    integer, intent(out) :: condit(nm), slides(nm)
+    ! 1 where the beam can move freely, 2 where it can along its axis only
+    integer, intent(out) :: loose
+    type(handle_type), pointer :: handle, solved
+
+    handle => behind(beam)
+    solved => behind(state)
+    values = 0.0d0
+    associate (lowered => handle%beam%lowered, s => solved%result%state)
+        call support_values(lowered, s, values(:nm, 1), values(:nm, 2), values(:nm, 3), values(:nm, 4), condit)
+        call friction_values(lowered, s, force, slip, slides)
+        loose = merge(merge(2, 1, s%loose_along), 0, s%indifferent)
+    end associate
+end subroutine gbalng
 
 ! Which numbers along the beam are at the ends of the stretches of a path
 subroutine gbhend(hist, nh, ends)

@@ -91,7 +91,7 @@ contains
         solves = solves + kept%state%solves
         kept%status = kept%state%status
         if (kept%status == gapbeam_no_equilibrium .or. kept%status == gapbeam_buckles) return
-        if (kept%state%indifferent) then
+        if (kept%state%indifferent .and. .not. kept%state%loose_along) then
             kept%status = not_unique
             return
         end if

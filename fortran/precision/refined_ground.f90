@@ -37,7 +37,10 @@ contains
         allocate (fine%moving)
         allocate (fine%moving%supports, source=real(ground%moving%supports, qp))
         allocate (fine%moving%layers, source=real(ground%moving%layers, qp))
-        if (allocated(ground%moving%tension)) allocate (fine%moving%tension, source=real(ground%moving%tension, qp))
+        if (allocated(ground%moving%tension)) then
+            allocate (fine%moving%begins, source=real(ground%moving%begins, qp))
+            allocate (fine%moving%tension, source=real(ground%moving%tension, qp))
+        end if
         if (allocated(ground%moving%tension_change)) then
             allocate (fine%moving%tension_change, source=real(ground%moving%tension_change, qp))
         end if

@@ -10,6 +10,7 @@ module gapbeam_along_axis
     use gapbeam_assembled_model, only: assembled_type, point_x, place_x
     use gapbeam_assemble_units, only: name_farthest
     use gapbeam_bedding_state, only: solve_bedding
+    use gapbeam_axial_links, only: take_links
     use gapbeam_solution, only: state_type
     implicit none
     private
@@ -60,10 +61,14 @@ contains
         real(wp), allocatable :: longer(:), force(:)
         integer :: found, place
 
-        ! Links that act one way, yield or rub, and ground are known on a path alone
+        ! Links that act one way, yield or rub, and ground are known on a path alone, but where bending feels them
         if (.not. allocated(assembled%axial%point)) return
         if (allocated(assembled%axial%bedding) .and. .not. assembled%depends_on_path) then
             call solve_bedding(assembled, state, error)
+            return
+        end if
+        if (allocated(assembled%axial%laws) .and. assembled%model%axial_loads_bend) then
+            call take_links(assembled, state, error)
             return
         end if
         if (allocated(assembled%axial%laws) .or. allocated(assembled%axial%limit)) return

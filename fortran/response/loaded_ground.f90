@@ -1,9 +1,10 @@
 !> The beam with the ground under it, its supports and its axial forces, where they are at a load factor.
 module gapbeam_loaded_ground
     use gapbeam_kinds, only: wp
-    use gapbeam_ground, only: ground_type
+    use gapbeam_ground, only: ground_type, moving_type
     use gapbeam_moved_ground, only: move_ground
     use gapbeam_axial_tension, only: tensions_of_loads, changes_of_tension
+    use gapbeam_axial_links, only: tensions_of_links
     use gapbeam_assembled_model, only: assembled_type, growth_of
     use gapbeam_solution, only: state_type
     implicit none
@@ -19,13 +20,11 @@ contains
         !> In which deflections may lengthen the bars along the axis, and supports have laws of their own
         type(state_type), intent(in), optional :: state
         type(ground_type) :: ground
-        logical :: grows, stretches
+        logical :: grows
         integer :: i
 
         ground%beam = assembled%beam
-        stretches = .false.
         if (present(state)) then
-            stretches = allocated(state%stretched)
             if (allocated(state%laws)) ground%beam%supports(:) = state%laws
         end if
         associate (n => size(assembled%pieces))
@@ -59,27 +58,56 @@ contains
             moving%layers(1, 2, :) = ground%layers%contact_b
             if (allocated(assembled%layer_growth)) moving%layers(2, :, :) = assembled%layer_growth
             if (allocated(assembled%tension_growth) .or. assembled%model%axial_loads_bend) then
-                allocate (moving%tension(2, size(ground%pieces)))
-                moving%tension(1, :) = ground%pieces%tension
-                moving%tension(2, :) = 0.0_wp
-                if (allocated(assembled%tension_growth)) then
-                    moving%tension(1, :) = ground%pieces%tension - assembled%tension_growth
-                    moving%tension(2, :) = assembled%tension_growth
-                end if
-                if (assembled%model%axial_loads_bend) then
-                    if (stretches) then
-                        moving%tension(:, :) = moving%tension + tensions_of_loads(assembled, state%stretched)
-                    else
-                        moving%tension(:, :) = moving%tension + tensions_of_loads(assembled)
-                    end if
-                    if (allocated(assembled%axial%along_bar)) then
-                        moving%tension_change = changes_of_tension(assembled)
-                        moving%tension(:, :) = moving%tension - moving%tension_change/2
-                    end if
-                end if
+                call let_tensions_grow(assembled, factor, ground%pieces%tension, moving, state)
             end if
         end associate
         call move_ground(ground, factor)
     end function ground_of
+
+    !> Axial forces at all load factors
+    subroutine let_tensions_grow(assembled, factor, given, moving, state)
+        type(assembled_type), intent(in) :: assembled
+        !> The load factor at hand
+        real(wp), intent(in) :: factor
+        !> Tensions of the pieces at load factor 1 that are not those of loads, shape (n)
+        real(wp), intent(in) :: given(:)
+        type(moving_type), intent(inout) :: moving
+        !> As for ground_of
+        type(state_type), intent(in), optional :: state
+        real(wp) :: alone(2, size(given))
+        integer :: k
+
+        alone(1, :) = given
+        alone(2, :) = 0.0_wp
+        if (allocated(assembled%tension_growth)) then
+            alone(1, :) = given - assembled%tension_growth
+            alone(2, :) = assembled%tension_growth
+        end if
+        if (assembled%model%axial_loads_bend .and. allocated(assembled%axial%laws)) then
+            call tensions_of_links(assembled, sign(max(1.0_wp, abs(factor)), factor), moving%begins, moving%tension)
+        else
+            allocate (moving%begins(1), moving%tension(2, size(given), 1), source=0.0_wp)
+            if (assembled%model%axial_loads_bend) then
+                if (present(state)) then
+                    if (allocated(state%stretched)) moving%tension(:, :, 1) = tensions_of_loads(assembled, state%stretched)
+                    if (.not. allocated(state%stretched)) moving%tension(:, :, 1) = tensions_of_loads(assembled)
+                else
+                    moving%tension(:, :, 1) = tensions_of_loads(assembled)
+                end if
+            end if
+        end if
+        if (assembled%model%axial_loads_bend .and. allocated(assembled%axial%along_bar)) then
+            moving%tension_change = changes_of_tension(assembled)
+        end if
+        do k = 1, size(moving%begins)
+            associate (tension => moving%tension(:, :, k), begins => moving%begins(k))
+                tension(:, :) = alone + tension
+                tension(1, :) = tension(1, :) + begins*alone(2, :)
+                if (.not. allocated(moving%tension_change)) cycle
+                tension(:, :) = tension - moving%tension_change/2
+                tension(1, :) = tension(1, :) - begins*moving%tension_change(2, :)/2
+            end associate
+        end do
+    end subroutine let_tensions_grow
 
 end module gapbeam_loaded_ground

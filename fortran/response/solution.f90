@@ -33,6 +33,8 @@ module gapbeam_solution
         integer :: solves = 0, method = 0
         !> Can the beam move freely without work of the loads; does it slide along its axis
         logical :: indifferent = .false., slides = .false.
+        !> With links along the beam: can it move freely along its axis alone
+        logical :: loose_along = .false.
         !> Did the rule single come back to a scheme
         logical :: cycled = .false.
         !> The scheme: which supports act, and whose reaction or opening is zero, so that they may be closed or open
@@ -117,6 +119,7 @@ contains
         state%method = 0
         state%indifferent = .false.
         state%slides = .false.
+        state%loose_along = .false.
         state%cycled = .false.
         state%has_starts = .false.
         if (allocated(state%ground)) deallocate (state%ground)

@@ -72,6 +72,8 @@ contains
             call settle(assembled, assembled%beam, rule, state, error)
         end if
         if (.not. allocated(error) .and. state%status == gapbeam_solved) call check_range(assembled, state, error)
+        state%loose_along = state%loose_along .and. .not. state%indifferent
+        state%indifferent = state%indifferent .or. state%loose_along
         call end_if_stopped(assembled%beam%watch, error)
     end subroutine solve_state
 

@@ -3,7 +3,8 @@ module gapbeam_assemble_laws
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
     use gapbeam_words, only: shown, whole
-    use gapbeam_scene, only: support_type, law_point_type, gapbeam_both, gapbeam_below, gapbeam_infinity, gapbeam_elastic
+    use gapbeam_scene, only: support_type, law_point_type, gapbeam_axial, gapbeam_both, gapbeam_below, gapbeam_infinity, &
+        gapbeam_elastic
     use gapbeam_model, only: node_support_type, last_place
     use gapbeam_law, only: always_closed
     use gapbeam_polyline, only: join_pieces
@@ -94,7 +95,8 @@ contains
         type(motion_type), allocatable :: motions(:)
 
         depends = .true.
-        if (allocated(assembled%axial%laws)) return
+        ! Where bending feels them they are followed under the load at hand
+        if (allocated(assembled%axial%laws) .and. .not. assembled%model%axial_loads_bend) return
         ! Beside a foundation what sliders remember is that of the dead loads alone
         if (allocated(assembled%axial%limit)) then
             if (.not. (allocated(assembled%axial%bedding) .and. allocated(assembled%layers))) return
@@ -104,7 +106,9 @@ contains
         end associate
         if (.not. allocated(assembled%law)) return
         if (size(assembled%law) == 0) return
-        depends = depends .or. any(assembled%model%supports(assembled%law%support)%unloading /= gapbeam_elastic)
+        associate (of_law => assembled%model%supports(assembled%law%support))
+            depends = depends .or. any(of_law%unloading /= gapbeam_elastic .and. of_law%direction /= gapbeam_axial)
+        end associate
         if (depends) return
         ! What yields may let go of a beam that nothing else holds: only its path tells at which load. Stretches tell that by
         ! limit analysis, as of ground that yields

@@ -39,34 +39,36 @@ contains
             .or. any(model%sections%N > gapbeam_unchanged .and. abs(model%sections%N) > 0.0_wp)
     end function is_given
 
-    !> Are there forces of axial loads, temperatures, settlements and stretching that bending might feel: those of a chain of bars
-    !> and springs, constant from place to place
+    !> Are there forces of axial loads, temperatures, settlements and stretching that bending might feel: those of a chain of bars,
+    !> springs and links, which bending does not change
     pure function axial_loads_may_bend(model, with_law) result(they_may)
         !> With all its arrays allocated
         type(model_type), intent(in) :: model
         !> Which supports have a law
         logical, intent(in) :: with_law(:)
-        logical :: they_may
+        logical :: they_may, links, moved
         integer :: i
 
         they_may = .false.
         if (model%first_order) return
         associate (s => model%supports, loads => model%loads)
             ! One support lets temperatures and settlements pass
-            they_may = any(s%direction == gapbeam_axial) &
-                .and. any(loads%kind == force_along .or. loads%kind == gapbeam_axial_distributed) &
-                .or. count(s%direction == gapbeam_axial) > 1 &
-                .and. (any(s%direction == gapbeam_axial .and. abs(s%settlement) > 0.0_wp) &
-                       .or. any(loads%kind == gapbeam_temperature .and. abs(loads%value_to) > 0.0_wp) .or. model%stretching)
-            if (.not. they_may) return
-            they_may = .not. (any(s%direction == gapbeam_axial .and. (s%side /= gapbeam_both .or. with_law)) &
-                              .or. any(s%friction > 0.0_wp) .or. any(has_ground_along(model%sections)) &
-                              .or. any(loads%kind == gapbeam_axial_distributed) .and. .not. may_change(model))
+            links = any(s%direction == gapbeam_axial .and. (s%side /= gapbeam_both .or. with_law))
+            moved = .false.
             do i = 1, size(loads)
                 if (loads(i)%kind /= gapbeam_movement) cycle
                 if (loads(i)%node < 1 .or. loads(i)%node > size(s)) cycle
-                they_may = they_may .and. s(loads(i)%node)%direction /= gapbeam_axial
+                moved = moved .or. s(loads(i)%node)%direction == gapbeam_axial
             end do
+            they_may = any(s%direction == gapbeam_axial) &
+                .and. any(loads%kind == force_along .or. loads%kind == gapbeam_axial_distributed) &
+                .or. count(s%direction == gapbeam_axial) > 1 &
+                .and. (any(s%direction == gapbeam_axial .and. (abs(s%settlement) > 0.0_wp .or. s%gap < 0.0_wp)) .or. moved &
+                       .or. any(loads%kind == gapbeam_temperature .and. abs(loads%value_to) > 0.0_wp) .or. model%stretching)
+            if (.not. they_may) return
+            they_may = .not. (any(s%friction > 0.0_wp) .or. any(has_ground_along(model%sections)) &
+                              .or. (links .or. moved) .and. model%stretching &
+                              .or. any(loads%kind == gapbeam_axial_distributed) .and. .not. may_change(model))
         end associate
     end function axial_loads_may_bend
 

@@ -96,6 +96,8 @@ contains
         subroutine check_rest(key, what)
             character(len=*), intent(in) :: key, what
 
+            ! Bending feels the chain as it is found alone
+            if (model%axial_loads_bend) return
             if (in_stretches(model)) then
                 call say(key, what//" beside "//trim(what_stretches(model))//in_version//"; leave one of them out")
             else if (curved) then

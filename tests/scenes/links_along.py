@@ -52,6 +52,47 @@ def random_rack(draw):
     return beam, supports + list(links.values()), loads, history
 
 
+def random_stops(draw):
+    """A beam on one-sided supports between stops, springs and links that yield, which axial loads and warmth press or pull."""
+    count = draw.randint(1, 5)
+    spans = [draw.choice([2.0, 3.0, 5.0]) for _ in range(count)]
+    across = [at(0), at(count)]
+    for node in range(1, count):
+        across.append(at(node, side=draw.choice(["both", "below", "above"]), gap=draw.choice([0.0, 0.005, 0.02])))
+    for one in across:
+        if one.get("side", "both") == "both":
+            one.pop("gap", None)
+        if draw.random() < 0.3:
+            one["stiffness"] = draw.choice([50.0, 400.0])
+    links = []
+    for node in draw.sample(range(count + 1), draw.randint(1, min(4, count + 1))):
+        kind = draw.choice(["left", "right", "pair", "spring", "yields"])
+        if kind == "spring":
+            settlement = draw.choice([0.0, 0.0, 0.00390625, -0.0078125])
+            links.append(along(node, stiffness=draw.choice([64.0, 512.0, 4096.0]), settlement=settlement))
+        elif kind == "yields":
+            links.append(along(node, law=[[0.0078125, 8.0], [1.0, 8.0]], unloading="plastic"))
+        for side in ("left", "right"):
+            if kind in (side, "pair"):
+                gap = draw.choice([0.0, 0.0078125, 0.015625, -0.00390625])
+                rigid = {} if kind != "pair" and draw.random() < 0.4 else {"stiffness": draw.choice([64.0, 512.0])}
+                links.append(along(node, side=side, gap=gap, **rigid))
+    if not any(set(one) == {"node", "direction", "stiffness", "settlement"} for one in links):
+        links = [one for one in links if one["node"] > 0] + [along(0, stiffness=16.0, settlement=0.0)]
+    EI = draw.choice([100.0, 1000.0])
+    push = EI * draw.choice([-0.25, -0.125, 0.25, 1.0]) * draw.choice([0.25, 1.0])
+    loads = [
+        own_weight(draw.choice([-2.0, 3.0])), force(draw.uniform(0.1, sum(spans) - 0.1), draw.choice([5.0, -8.0, 10.0])),
+        {"type": "axial", "x": sum(spans[: draw.randint(0, count)]), "F": push, "case": draw.choice(["dead", "live"])},
+    ]  # fmt: skip
+    if draw.random() < 0.6:
+        loads.append(warm(draw.choice([32.0, -16.0, 64.0]), case=draw.choice(["dead", "live"])))
+    if draw.random() < 0.3:
+        value = draw.choice([0.00390625, -0.00390625, 0.015625])
+        loads.append({"type": "movement", "support": len(across) + draw.randrange(len(links)), "value": value})
+    return {"beam": {"spans": spans, "EI": EI, "EA": 8192.0, "alpha": 2.0**-13}, "supports": across + links, "loads": loads}
+
+
 def on_quarters(rng):
     """Spans, and what draws a place and a stretch along them, all on a mesh of quarters."""
     spans = [rng.choice((2.0, 3.5, 5.0, 8.0)) for _ in range(rng.randint(1, 3))]

@@ -221,8 +221,10 @@ class Beam(Layout):
         start = read_only(np.array(closed)) if closed.flags.writeable else closed
         state = State(self, factor, code, start, *on_ground, on_laws, handle, along)
         chain = None
-        if along is not None and status == SOLVED:
-            values, *found = along.put_into(self, factor, handle)
+        if self.has_links_along and status == SOLVED:
+            if along is not None:
+                along.put_into(self, factor, handle)
+            values, *found = _engine.gbalng(self.handle, handle, self.scene_supports)
             chain = Chain(*found)
             indifferent = chain.loose
         return Solution(

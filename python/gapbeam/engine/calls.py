@@ -286,6 +286,7 @@ gbnumb = _engine.gbnumb
 gbhget = _engine.gbhget
 gbhsch = _engine.gbhsch
 gbhaxi = _engine.gbhaxi
+gbalng = _engine.gbalng
 gbhend = _engine.gbhend
 gbhten = _engine.gbhten
 gbsget = _engine.gbsget

@@ -205,12 +205,10 @@ class OnStretch:
     def __init__(self, followed: Followed, stretch: int):
         self.followed, self.stretch = followed, stretch
 
-    def put_into(self, beam: Beam, factor: float, state: _engine.Owned) -> tuple:
-        """Put it into a state of the beam with the loads of the leg; give its values at the supports, and those of a `Chain`."""
-        path = self.followed._found[1]
-        *found, status, message = _engine.gbhaxi(beam.handle, path, state, self.stretch + 1, factor, beam.scene_supports)
+    def put_into(self, beam: Beam, factor: float, state: _engine.Owned) -> None:
+        """Put it into a state of the beam with the loads of the leg."""
+        status, message = _engine.gbhaxi(beam.handle, self.followed._found[1], state, self.stretch + 1, factor)
         check_status(status, message)
-        return tuple(found)
 
 
 def follow_ground(beam: Beam, rule: str, closed: np.ndarray) -> GroundChanges:

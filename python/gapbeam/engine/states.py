@@ -30,8 +30,8 @@ ALL = np.array(list(NUMBERS.values()), dtype=np.int32)
 class Along(Protocol):
     """What there is along the beam, where that is known on a path alone."""
 
-    def put_into(self, beam: Beam, factor: float, state: _engine.Owned) -> tuple:
-        """Put it into a state; give its values at the supports, and those of a `Chain`."""
+    def put_into(self, beam: Beam, factor: float, state: _engine.Owned) -> None:
+        """Put it into a state."""
 
 
 class Chain(NamedTuple):

@@ -193,7 +193,7 @@ class Step(Pickled, StepModes):
     @cached_property
     def state(self) -> tuple[str, ...]:
         """``closed``, ``open`` or ``bilateral``; of a law ``open`` or ``branch 1``, ``branch 2`` and so on."""
-        names, chain = name_states(self._beam, self.closed), self.solution.chain if self._along is not None else None
+        names, chain = name_states(self._beam, self.closed), self.solution.chain if self._beam.has_links_along else None
         if chain is None:
             return names
         # Of links along the beam the engine tells

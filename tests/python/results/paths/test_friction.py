@@ -3,12 +3,12 @@
 import json
 import random
 from fractions import Fraction
-from itertools import accumulate, pairwise
+from itertools import pairwise
 
 import gapbeam
 import numpy as np
 import pytest
-from oracle.axial_chain import Chain, Link, LooseError
+from oracle.axial_chain import LoadedChain, LooseError
 from scenes import at, force
 from scenes.links_along import along, own_weight, random_rack, warm
 
@@ -253,53 +253,8 @@ def test_report_json_and_picture(tmp_path):
     assert (tmp_path / "one.svg").stat().st_size > 1000
 
 
-class Beside:
+class Beside(LoadedChain):
     """The chain of a scene in rationals, with reactions across the beam that the engine finds without what is along it."""
-
-    def __init__(self, beam, supports, loads):
-        self.beam, self.supports, self.loads = beam, supports, loads
-        ends = [Fraction(0), *accumulate(map(Fraction, beam["spans"]))]
-        self.points = sorted({*ends, *(Fraction(load["x"]) for load in loads if load["type"] == "axial")})
-        node = {x: i for i, x in enumerate(self.points)}
-        self.across = [one for one in supports if one.get("direction") != "axial"]
-        grown = {load["support"]: Fraction(load["value"]) for load in loads if load["type"] == "movement"}
-        self.links, self.which, self.first, self.growth = [], [], [], []
-        for k, one in enumerate(supports):
-            place, stiffness = node[ends[one["node"]]], Fraction(one["stiffness"]) if "stiffness" in one else None
-            gap, moved = Fraction(one.get("gap", 0)), Fraction(one.get("settlement", 0))
-            if k < len(self.across):
-                if not one["friction"]:
-                    continue
-                link, moved = Link(place, "friction"), Fraction(0)
-            elif one.get("side", "both") != "both":
-                side = 1 if one["side"] == "left" else -1
-                link, moved = Link(place, "side", stiffness, side, side * max(gap, Fraction(0))), side * min(gap, Fraction(0))
-            elif "law" in one:
-                (d, limit), _ = one["law"]
-                link = Link(place, "plastic", Fraction(limit) / Fraction(d), limit=Fraction(limit))
-            else:
-                link = Link(place, "both", stiffness)
-            self.links.append(link)
-            self.which.append(k)
-            self.first.append(moved)
-            self.growth.append(grown.get(k, Fraction(0)))
-        bars = [Fraction(beam["EA"]) / (b - a) for a, b in pairwise(self.points)]
-        self.chain = Chain(bars, self.links)
-
-    def rates(self, case):
-        """Forces at the points, and elongations of the bars."""
-        pushes, longer = [Fraction(0)] * len(self.points), [Fraction(0)] * (len(self.points) - 1)
-        for load in self.loads:
-            if load.get("case", "live") != case:
-                continue
-            if load["type"] == "axial":
-                pushes[self.points.index(Fraction(load["x"]))] += Fraction(load["F"])
-            elif load["type"] == "temperature":
-                first, last = Fraction(load.get("from", 0)), Fraction(load.get("to", float(self.points[-1])))
-                for i, (a, b) in enumerate(pairwise(self.points)):
-                    if first <= a and b <= last:
-                        longer[i] += Fraction(self.beam["alpha"]) * Fraction(load["dT"]) * (b - a)
-        return pushes, longer
 
     def reactions(self, factor, dead_alone=False):
         """Reactions across the beam; dead loads as live ones where they act alone. Kinks on the way there from 0."""

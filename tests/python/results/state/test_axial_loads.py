@@ -139,7 +139,6 @@ def test_under_a_train_they_act_as_beside_standing_forces(F):
     "more",
     [
         {"loads": [{"type": "axial_uniform", "q": 0.1}], "beam": {"GA": 1e3}},
-        {"supports": [{"node": 1, "direction": "axial", "side": "left"}]},
         {"supports": [{"x": 0.25, "side": "below", "gap": 0.1, "friction": 0.3}], "beam": {"EA": 1e4}},
         {"sections": [{"from": 0.0, "to": 0.5, "GA": [1e3, 2e3]}]},
         {"analysis": {"history": [1.0, 0.0], "follow": "events"}},
