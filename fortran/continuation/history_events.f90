@@ -193,7 +193,7 @@ contains
         type(link_change_type), allocatable :: changes(:)
         integer :: k
 
-        changes = changes_along(assembled, path%stretches(one)%along, path%stretches(other)%along)
+        allocate (changes, source=changes_along(assembled, path%stretches(one)%along, path%stretches(other)%along))
         added = size(changes)
         do k = 1, added
             associate (c => changes(k))

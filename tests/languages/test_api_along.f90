@@ -6,7 +6,7 @@ program test_api_along
         history_type, uniform_load, axial_force, temperature_load, support_movement, prepare_model, follow_history, solve_on_path, &
         solve_beam, get_supports, get_friction, get_fields, count_supports, gapbeam_axial, gapbeam_left, gapbeam_both, &
         gapbeam_dead, gapbeam_plastic, gapbeam_infinity, gapbeam_limit_stop, gapbeam_slips, gapbeam_sticks, gapbeam_closes, &
-        gapbeam_mechanism, gapbeam_bad_input, gapbeam_indeterminate, section_type
+        gapbeam_mechanism, gapbeam_bad_input, gapbeam_indeterminate, section_type, ground_event_type, follow_ground
     implicit none
     real(wp), parameter :: EA = 1000.0_wp, strain = 0.05_wp, length = 4.0_wp
     integer :: status
@@ -71,11 +71,12 @@ contains
         call check(allocated(error), "friction: a state without its path")
     end subroutine friction_slips_and_sticks
 
-    !> A stop with a gap that is jacked, and a link that yields either way
+    !> A stop with a gap that is jacked, and a link that yields either way; with bending that feels it, and without
     subroutine stops_and_links_that_yield()
         type(model_type) :: model
         type(prepared_type) :: beam
         type(history_type) :: history
+        type(ground_event_type), allocatable :: events(:)
         type(result_type) :: result
         type(error_type), allocatable :: error
         real(wp) :: reaction(4), deflection(4), opening(4), couple(4)
@@ -83,6 +84,19 @@ contains
 
         model = warm_bar()
         model%supports = [model%supports, support_type(node=1, direction=gapbeam_axial, side=gapbeam_left, gap=0.1_wp)]
+        call prepare_model(model, beam, error)
+        if (.not. allocated(error)) call follow_ground(beam, 1.0_wp, options_type(), events, result, error)
+        if (.not. allocated(error)) call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        call check(.not. allocated(error), "stop that bends: solved")
+        call check(near(reaction(4), -EA*(strain - 0.1_wp/length)), "stop that bends: its force")
+        call check(size(events) == 1 .and. all(events%support == 4) .and. all(events%change == gapbeam_closes), "stop that bends")
+        call check(near(events(1)%factor, 0.1_wp/(strain*length)), "stop that bends: where it closes")
+        call solve_beam(beam, 0.25_wp, options_type(), result, error)
+        if (.not. allocated(error)) call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        call check(near(opening(4), 0.05_wp), "stop that bends: how far it is open")
+        call follow_history(beam, [1.0_wp], gapbeam_limit_stop, history, error)
+        call check(has_code(error, gapbeam_bad_input), "stop that bends: a history is for first_order")
+        model%first_order = .true.
         call prepare_model(model, beam, error)
         if (.not. allocated(error)) call follow_history(beam, [1.0_wp], gapbeam_limit_stop, history, error)
         if (.not. allocated(error)) call solve_on_path(beam, history, 1.0_wp, result, error)
@@ -100,6 +114,7 @@ contains
         if (.not. allocated(error)) call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
         call check(near(reaction(4), -EA*0.2_wp/length), "stop: jacked")
         model = warm_bar()
+        model%first_order = .true.
         model%supports = [model%supports, support_type(node=1, direction=gapbeam_axial, side=gapbeam_both, &
                                                        unloading=gapbeam_plastic)]
         model%law = [law_point_type(4, 0.02_wp, 3.0_wp), law_point_type(4, 1.0_wp, 3.0_wp)]
