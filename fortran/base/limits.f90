@@ -149,8 +149,8 @@ module gapbeam_limits
     !
     ! Contact with the ground
     !
-    !> Steps that bring digits back where zones are short. Read by contact/system
-    integer, parameter :: most_refinements = 4
+    !> Steps that bring digits back where zones are short, or compression leaves little of a pivot. Read by contact/system
+    integer, parameter :: most_refinements = 16
     !> Rounds on a mesh, and one more for every node up to most_node_rounds, since on stiff ground zones may shrink by a node at
     !> each end in two rounds. Read by contact/ground_energy
     integer, parameter :: most_mesh_rounds = 200

@@ -203,8 +203,8 @@ module gapbeam_tolerances
     !
     ! Contact with the ground
     !
-    !> Zones of a smaller share of the beam, or of what the ground holds elsewhere, lose digits that refining brings back; tuned.
-    !> Read by contact/system
+    !> Zones of a smaller share of the beam, or of what the ground holds elsewhere, and pivots of which compression leaves less than
+    !> the square of it, lose digits that refining brings back; tuned. Read by contact/system
     real(wp), parameter :: short_zone = 2.0_wp**(-10)
     !> Crossings nearer to each other than this share of the length of their piece are one: rounding of the place. Read by
     !> contact/find_zones

@@ -10,7 +10,7 @@ module gapbeam_modes
     use gapbeam_piece, only: no_load
     use gapbeam_foundation, only: stretch_type, stretch_load_type, decay_lengths
     use gapbeam_curved, only: curved_type, advance_curved
-    use gapbeam_foundation_chain, only: factor_foundation_chain, solve_foundation_chain
+    use gapbeam_foundation_chain, only: factor_foundation_chain, of_working_precision, solve_foundation_chain
     use gapbeam_ground_laws, only: between
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, new_zones, stretch_on_layers, curved_stretch, &
         place_stretches
@@ -89,7 +89,7 @@ contains
             end do
         end if
         associate (n => size(grounded%beam%links))
-            call factor_foundation_chain(work%nodes(0:n), grounded%beam%ground, work%pivots, state, place)
+            call factor_foundation_chain(work%nodes(0:n), grounded%beam%ground, of_working_precision, work%pivots, state, place)
             if (state /= band_ok .and. place < n) return
             number = count_unstable_pivots(work%nodes(0:n), work%pivots)
         end associate

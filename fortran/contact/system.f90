@@ -4,9 +4,11 @@ module gapbeam_system
     use gapbeam_limits, only: most_refinements
     use gapbeam_tolerances, only: short_zone
     use gapbeam_watch, only: is_stopped
-    use gapbeam_band, only: node_type, rhs_type, factor_chain, band_ok, band_mechanism, band_needs_pivoting, band_stopped
+    use gapbeam_band, only: node_type, rhs_type, pivot_type, factor_chain, band_ok, band_mechanism, band_needs_pivoting, &
+        band_stopped, full, m_known, w_known
+    use gapbeam_foundation, only: stretch_link_type
     use gapbeam_band_substitution, only: solve_chain
-    use gapbeam_foundation_chain, only: factor_foundation_chain, solve_foundation_chain
+    use gapbeam_foundation_chain, only: factor_foundation_chain, solve_foundation_chain, of_numbers_as_given
     use gapbeam_foundation_residual, only: residual_on_ground
     use gapbeam_residual, only: residual_chain
     use gapbeam_three_moment, only: fits_three_moment, solve_three_moment
@@ -169,7 +171,8 @@ contains
 
         work%method = method_mixed
         associate (n => size(beam%links))
-            call factor_foundation_chain(work%nodes(0:n), beam%ground, work%pivots, state, place, softens(work%nodes))
+            call factor_foundation_chain(work%nodes(0:n), beam%ground, of_numbers_as_given, work%pivots, state, place, &
+                                         softens(work%nodes))
             if (state /= band_ok) return
             call solve_foundation_chain(work%nodes(0:n), beam%ground, beam%links%length, work%pivots, work%rhs(0:n), &
                                         work%eliminated, work%answers(0:n))
@@ -244,7 +247,7 @@ contains
         real(wp) :: share, before
         integer :: step, n
 
-        if (.not. loses_digits(beam)) return
+        if (.not. (loses_digits(beam) .or. cancels(work%pivots, beam%ground))) return
         n = size(beam%links)
         allocate (residual(0:n))
         before = huge(before)
@@ -286,6 +289,31 @@ contains
             loses = minval(beam%links%length) < short_zone*sum(beam%links%length) .or. minval(g, g > 0.0_wp) < short_zone*maxval(g)
         end associate
     end function loses_digits
+
+    !> Does compression leave little of a pivot, so that huge numbers are passed on that cancel later
+    pure function cancels(pivots, links) result(it_does)
+        !> Shape (0:n), and the links between nodes, shape (n)
+        type(pivot_type), intent(in) :: pivots(0:)
+        type(stretch_link_type), intent(in) :: links(:)
+        logical :: it_does
+        integer :: i
+
+        it_does = .false.
+        do i = 1, size(links)
+            associate (p => pivots(i - 1), link => links(i))
+                select case (p%kind)
+                case (full)
+                    it_does = short_zone**2*abs(p%reciprocal)*(abs(p%a*link%gaa) &
+                                                               + max(abs(p%b - link%pa), abs(link%pa))**2) > 1.0_wp
+                case (m_known)
+                    it_does = abs(p%c) < short_zone**2*abs(link%gaa)
+                case (w_known)
+                    it_does = abs(p%a) < short_zone**2*abs(link%faa)
+                end select
+            end associate
+            if (it_does) return
+        end do
+    end function cancels
 
     !> Is the solution in the range of numbers
     pure function is_finite(work) result(it_is)

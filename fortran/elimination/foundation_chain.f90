@@ -7,13 +7,13 @@
 !> sign. Links are so short there that none buckles by itself, and the pivots tell whether the beam does (Sylvester; Wittrick and
 !> Williams 1971).
 !>
-!> Under compression a pivot may be zero by chance, where the beam up to there would buckle by itself: then a little stiffness at
-!> the node makes up for it, which refinement takes out again.
+!> Under compression a pivot may be zero by chance, where the beam up to there would buckle by itself: then a little less stiffness
+!> at the node makes up for it, which refinement takes out again. Less, so that no beam that is about to buckle is held by it.
 !>
 !> A pivot is zero where a rigid link goes on from a node whose deflection and rotation are known, as at a clamp. Then so is the
 !> deflection at its other end, and the moment follows from equilibrium there on the way back.
 module gapbeam_foundation_chain
-    use gapbeam_kinds, only: wp
+    use gapbeam_kinds, only: wp, dp
     use gapbeam_require, only: checked, require
     use gapbeam_nodes, only: hinge_left, hinge_right, joint_left, joint_right, is_hinge, takes_left
     use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type, plain, hinge, restrained, jointed, band_ok, &
@@ -21,21 +21,26 @@ module gapbeam_foundation_chain
     use gapbeam_foundation, only: stretch_link_type
     implicit none
     private
-    public :: factor_foundation_chain, solve_foundation_chain
+    public :: factor_foundation_chain, solve_foundation_chain, of_numbers_as_given, of_working_precision
 
     !> One more way to eliminate a node: the rigid link behind it tells the deflection at the next one
     integer, parameter :: w_ahead = 7
-    !> Below this share of what cancels in it a pivot is rounding; share of the stiffness there that is put in then: as much is
-    !> lost by it as by rounding, and refinement squares that
-    real(wp), parameter :: nothing_left = 64*epsilon(1.0_wp), little_stiffness = sqrt(epsilon(1.0_wp))
+    !> Below which share of what cancels in it a pivot is rounding: of the working precision, and of numbers as they were given
+    real(wp), parameter :: of_working_precision = 8*epsilon(1.0_wp), &
+                           of_numbers_as_given = max(4*real(epsilon(1.0_dp), wp), of_working_precision)
+    !> Share of the stiffness there that is taken out then: rounding of the working precision is lost by its square, which
+    !> refinement brings back
+    real(wp), parameter :: little = epsilon(1.0_wp)**(1.0_wp/3)
 
 contains
 
     !> Factor the system of a contact state
-    pure subroutine factor_foundation_chain(nodes, links, pivots, state, place, unstable)
+    pure subroutine factor_foundation_chain(nodes, links, rounding, pivots, state, place, unstable)
         !> Nodes, shape (0:n), and the links between them, shape (n)
         type(node_type), intent(in) :: nodes(0:)
         type(stretch_link_type), intent(in) :: links(:)
+        !> Below which share of what cancels in it a pivot is rounding
+        real(wp), intent(in) :: rounding
         !> The factor, shape (0:n)
         type(pivot_type), intent(inout) :: pivots(0:)
         !> band_ok; band_mechanism, also where compression makes it unstable; or band_needs_pivoting: a rigid stretch over too many
@@ -68,7 +73,8 @@ contains
                 held = held .or. node%held
                 p%c = delta + node%stiffness
                 if (i == n) then
-                    call factor_last(node, held, p, phi, beta, floating, state)
+                    call factor_last(node, held, p, phi, beta, floating, rounding*size_of_delta(links(n), pivots(n - 1)), &
+                                     state)
                     if (present(unstable)) then
                         if (unstable) return
                     end if
@@ -82,10 +88,8 @@ contains
                         if (held) then
                             p%kind = both_known
                             next = [link%fbb, link%pb, link%gbb]
-                        else if (abs(carried + link%gaa) > 0.0_wp .or. abs(link%gaa) > 0.0_wp) then
-                            if (abs(carried + link%gaa) <= nothing_left*abs(link%gaa)) then
-                                carried = carried + little_stiffness*abs(link%gaa)
-                            end if
+                        else if (max(abs(carried), abs(link%gaa)) > 0.0_wp) then
+                            if (abs(carried + link%gaa) <= rounding*abs(link%gaa)) carried = -link%gaa - little*abs(link%gaa)
                             p%kind = m_known
                             p%reciprocal = 1/(carried + link%gaa)
                             next = [link%fbb + link%p2**2*p%reciprocal, (carried*link%pb + link%s6)*p%reciprocal, &
@@ -111,9 +115,9 @@ contains
                     else
                         p%kind = full
                         divisor = p%a*(carried + link%gaa) + p%b**2
-                        if (abs(divisor) <= nothing_left*(abs(p%a)*max(abs(carried), abs(link%gaa)) &
-                                                          + max(abs(beta), abs(link%pa))**2)) then
-                            carried = carried + little_stiffness*max(abs(carried), abs(link%gaa))
+                        if (abs(divisor) <= rounding*(abs(p%a)*max(abs(carried), abs(link%gaa)) &
+                                                      + max(abs(beta), abs(link%pa))**2)) then
+                            carried = carried - little*max(abs(carried), abs(link%gaa))
                             divisor = p%a*(carried + link%gaa) + p%b**2
                         end if
                         if (.not. abs(divisor) > 0.0_wp) then
@@ -159,22 +163,50 @@ contains
     end function passed_on
 
     !> The right end of the beam: no link follows
-    pure subroutine factor_last(node, held, pivot, phi, beta, floating, state)
+    pure subroutine factor_last(node, held, pivot, phi, beta, floating, least, state)
         type(node_type), intent(in) :: node
         !> Is its deflection known
         logical, intent(in) :: held
         type(pivot_type), intent(inout) :: pivot
         real(wp), intent(in) :: phi, beta
         logical, intent(in) :: floating
+        !> Rounding in the stiffness that comes from the left
+        real(wp), intent(in) :: least
         integer, intent(inout) :: state
 
         pivot%kind = end_of_beam
         pivot%a = phi
         pivot%b = beta
+        ! So near to buckling nothing holds the beam
+        if (abs(pivot%c) <= least) pivot%c = -least
         if (.not. (held .or. abs(pivot%c) > 0.0_wp)) state = band_mechanism
         if (floating .and. node%kind /= restrained) state = band_mechanism
         if (.not. held .and. state == band_ok) pivot%reciprocal = 1/pivot%c
     end subroutine factor_last
+
+    !> Sum of the sizes of the terms of delta behind a link (passed_on): much more than it only where compression lets them cancel
+    pure function size_of_delta(link, pivot) result(total)
+        type(stretch_link_type), intent(in) :: link
+        !> Of the node before it
+        type(pivot_type), intent(in) :: pivot
+        real(wp) :: total
+
+        associate (carried => abs(pivot%c - link%gaa), beta => abs(pivot%b - link%pa), each => abs(pivot%reciprocal))
+            select case (pivot%kind)
+            case (statics)
+                total = 0.0_wp
+            case (m_known)
+                total = (carried*abs(link%gbb) + abs(link%dg))*each
+            case (w_known)
+                total = abs(link%gbb) + link%p1**2*each
+            case (full)
+                total = (carried*link%p1**2 + abs(link%s8) + beta*(2*abs(link%s7) + beta*abs(link%gbb)) &
+                        + abs(pivot%a)*(carried*abs(link%gbb) + abs(link%dg)))*each
+            case default
+                total = abs(link%gbb)
+            end select
+        end associate
+    end function size_of_delta
 
     !> Solve with a factor
     pure subroutine solve_foundation_chain(nodes, links, lengths, pivots, rhs, eliminated, answers)

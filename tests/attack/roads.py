@@ -74,6 +74,7 @@ KINDS = {
     "joints": _joints,
     "rigid ground": lambda seed: _plain(rigid_ground.rigid_scene(seed)),
     "rack": _rack,
+    "stops": lambda seed: _plain(links_along.random_stops(random.Random(seed))),
     "pipe": lambda seed: _first_order(links_along.random_pipe(random.Random(seed))),
     "pile": lambda seed: _first_order(bedded_bar(seed)),
     "pile on ground": lambda seed: {**_first_order(bedded_bar(seed)), "foundation": [{"k": 1e4}]},

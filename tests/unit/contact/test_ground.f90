@@ -10,7 +10,7 @@ program test_ground
     use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type, hinge, restrained, band_ok, &
         band_needs_pivoting, band_mechanism
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_link_type, condense_loaded
-    use gapbeam_foundation_chain, only: factor_foundation_chain, solve_foundation_chain
+    use gapbeam_foundation_chain, only: factor_foundation_chain, solve_foundation_chain, of_numbers_as_given
     use gapbeam_layers, only: layer_type, law_piece_type, pieces_of_law, law_piece
     use gapbeam_filled_ground, only: any_falls, peak_of, fill_valleys
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact, steps_of_piece
@@ -95,7 +95,7 @@ contains
                 if (nodes(i)%held) rhs(i)%deflection = r(4)
                 if (nodes(i)%kind /= hinge) rhs(i)%couple = r(5)
             end do
-            call factor_foundation_chain(nodes, links, pivots, state, place)
+            call factor_foundation_chain(nodes, links, of_numbers_as_given, pivots, state, place)
             too_many = too_many + merge(1, 0, state == band_needs_pivoting)
             if (state /= band_ok) cycle
             call solve_foundation_chain(nodes, links, lengths, pivots, rhs, eliminated, answers)
@@ -147,16 +147,16 @@ contains
         call condense_loaded(stretch_type(1.0_wp, 1.0_wp), [stretch_load_type ::], links(1), none(:, 1), none(:, 2), &
                              none(:, 3), none(:, 4))
         links(2) = links(1)
-        call factor_foundation_chain(nodes, links, pivots, state, place)
+        call factor_foundation_chain(nodes, links, of_numbers_as_given, pivots, state, place)
         call check(state == band_mechanism, "nothing holds the beam")
         call condense_loaded(grounded, [stretch_load_type ::], links(2), none(:, 1), none(:, 2), &
                              none(:, 3), none(:, 4))
         nodes(1)%kind = hinge
-        call factor_foundation_chain(nodes, links, pivots, state, place)
+        call factor_foundation_chain(nodes, links, of_numbers_as_given, pivots, state, place)
         call check(state == band_mechanism .and. place == 1, "a part that hangs at a hinge turns")
         call condense_loaded(grounded, [stretch_load_type ::], links(1), none(:, 1), none(:, 2), &
                              none(:, 3), none(:, 4))
-        call factor_foundation_chain(nodes, links, pivots, state, place)
+        call factor_foundation_chain(nodes, links, of_numbers_as_given, pivots, state, place)
         call check(state == band_ok, "ground holds both parts")
     end subroutine the_chain_finds_mechanisms
 

@@ -38,7 +38,7 @@ def result_of_case(scene: Scene, beam: Beam, rule: str, factors: np.ndarray, var
     """
     if not varied.is_nothing:
         scene = replace_numbers(scene, columns(scene), varied)
-    if beam.depends_on_path or beam.is_on_axial_ground:  # dead loads are put on first; with factors all are live
+    if beam.depends_on_path or beam.has_links_along:  # dead loads are put on first; with factors all are live
         once = replace(scene.analysis, follow="steps", steps=1, at_limit="stop", history=[1.0])
         scene = replace(scene, analysis=once, loads=[times(load, by) for load, by in zip(scene.loads, factors, strict=True)])
         beam = beam_of(scene)

@@ -338,7 +338,7 @@ def prepared_solver(source: Scene | Mapping[str, Any] | str | os.PathLike, rule:
     taken, (without, movements) = beam.columns, take_movements(scene)
     if movements is not None:
         unmoved, taken = _unmoved(scene, without)
-        if unmoved.depends_on_path:  # supports move as the loads grow, but with dead ones from the start
+        if unmoved.depends_on_path or unmoved.has_links_along:  # supports move as the loads grow, but with dead ones from the start
             without, movements = take_movements(scene, only_dead=True)
             unmoved, taken = (beam, beam.columns) if movements is None else _unmoved(scene, without)
         scene, beam = without, unmoved

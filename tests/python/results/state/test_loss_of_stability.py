@@ -161,3 +161,24 @@ def test_a_part_that_would_buckle_by_itself_by_chance(off, behind):
     assert total == pytest.approx(10.0, rel=1e-14)
     for more in ((), (at(1, side="above"),)):
         assert share_of(solved(*more)) == pytest.approx(0.90334, rel=1e-5)
+
+
+@pytest.mark.parametrize("load", [2.0, 4.75])
+def test_at_just_the_load_under_which_it_buckles(load):
+    """A pin and a spring k under N = k L: whatever rounding leaves of the last pivot, nothing holds it, seen from either side."""
+    for supports, x in (([at(0), at(1, stiffness=50.0)], load), ([at(0, stiffness=50.0), at(1)], 5.0 - load)):
+        strut = scene([5.0], supports, [{"type": "uniform", "q": 2.0}, force(x, 8.0)], EI=1000.0, N=-250.0)
+        assert share_of(gapbeam.solve(strut)) == pytest.approx(1.0, rel=1e-9)
+
+
+@pytest.mark.parametrize("off", [0.0, 1e-15, 1e-14, -1e-13, 1e-12, 1e-11])
+def test_huge_numbers_that_elimination_passes_on_are_refined_away(off):
+    """The part from the spring of 50 to the next support would buckle by itself under this N, or one next to it."""
+    spans, N = [5.0, 3.0, 2.0, 5.0, 5.0], [-0.25, -0.25, -0.25, -250.0 * (1.0 + off), -250.0 * (1.0 + off)]
+    above = [at(k, side="above", gap=0.005) for k in (1, 3)]
+    supports = [at(0), above[0], at(2), above[1], at(4, stiffness=400.0), at(5, stiffness=50.0)]
+    loads = [{"type": "uniform", "q": 3.0}, force(16.561054491466937, -8.0)]
+    there = gapbeam.solve(scene(spans, supports, loads, EI=1000.0, N=N))
+    behind = [{**one, "node": 5 - one["node"]} for one in reversed(supports)]
+    turned = scene(spans[::-1], behind, [loads[0], force(20.0 - 16.561054491466937, -8.0)], EI=1000.0, N=N[::-1])
+    assert gapbeam.solve(turned).steps[-1].reaction[::-1] == pytest.approx(there.steps[-1].reaction, rel=1e-12)
