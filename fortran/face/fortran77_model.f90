@@ -4,7 +4,7 @@ module gapbeam_fortran77_model
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory, gapbeam_bad_input
     use gapbeam_laws, only: parameters_of_law
-    use gapbeam_scene, only: model_type, section_type, gapbeam_table_of_gap
+    use gapbeam_scene, only: model_type, gapbeam_table_of_gap
     use gapbeam_input_error, only: of_spans, of_supports, of_sections, of_foundations, not_expected
     use gapbeam_check_ground_laws, only: has_parameter
     use gapbeam_arrays, only: model_from_arrays, foundations_from_arrays
@@ -43,9 +43,9 @@ contains
         type(model_type) :: model
         type(handle_type), pointer :: handle
         type(error_type), allocatable :: error
-        real(wp), allocatable :: ground(:, :), points(:, :)
-        integer, allocatable :: owners(:)
-        integer :: k, stat
+        real(wp), allocatable :: spans(:, :), hinges(:, :), sections(:, :), supports(:, :), ground(:, :), points(:, :)
+        integer, allocatable :: codes(:, :), owners(:)
+        integer :: k, number, stat
 
         beam = 0
         ientry = 0
@@ -56,47 +56,45 @@ contains
         k = findloc([nspan - 1, nhinge, nsup, nload, nlaw, nfound, nprof, nflaw, ntab] < 0, .true., 1)
         if (k > 0) info = -place_of_count(k)
         if (info /= 0) return
-        allocate (ground(7 + 2*parameters_of_law, nfound), points(3, nprof + ntab), owners(nprof + ntab), stat=stat)
+        number = 0
+        if (present(nsec)) number = nsec
+        allocate (spans(6, nspan), hinges(2, nhinge), sections(15, number), supports(9, nsup), ground(14, nfound), &
+                  points(3, nprof + ntab), source=0.0_wp, stat=stat)
+        if (stat == 0) allocate (codes(5, nsup), owners(nprof + ntab), source=0, stat=stat)
         if (stat /= 0) then
             call no_memory(error)
         else
+            spans(:4, :) = span(:, 1:nspan)
+            if (present(axial)) spans(5:, :) = axial(:, 1:nspan)
+            hinges(1, :) = hinge(1:nhinge)
+            if (present(sec)) sections(:12, :) = sec(:, 1:number)
+            if (present(isec)) sections(13:, :) = isec(:, 1:number)
+            codes(:3, :) = isup(:, 1:nsup)
+            if (nlaw > 0 .or. present(islaw)) codes(4, :) = iunl(1:nsup)
+            if (present(islaw)) codes(5, :) = islaw(1:nsup)
+            supports(:5, :) = sup(:, 1:nsup)
+            if (present(slaw)) supports(6:8, :) = slaw(:, 1:nsup)
+            if (present(fric)) supports(9, :) = fric(1:nsup)
             ground(:6, :) = found(:, 1:nfound)
             ground(7, :) = iglaw(1:nfound)
-            do k = 1, parameters_of_law
-                ! Those that a law does not have may hold anything
-                ground(7 + k, :) = merge(glaw(k, 1:nfound), 0.0_wp, has_parameter(iglaw(1:nfound), k))
-                ground(7 + parameters_of_law + k, :) = merge(glaw(parameters_of_law + k, 1:nfound), 0.0_wp, &
-                                                             has_parameter(iglaw(1:nfound), k))
+            do k = 1, nfound
+                ! Parameters that its law does not have may hold anything
+                ground(8:13, k) = merge(glaw(:, k), 0.0_wp, has_parameter(iglaw(k), [1, 2, 3, 1, 2, 3]))
             end do
+            if (present(shear)) ground(14, :) = shear(1:nfound)
             owners(:nprof) = iprof(1:nprof)
             owners(nprof + 1:) = itab(1, 1:ntab)
             points(:2, :nprof) = aprof(:, 1:nprof)
             points(3, :nprof) = gapbeam_table_of_gap
             points(:2, nprof + 1:) = atab(:, 1:ntab)
             points(3, nprof + 1:) = itab(2, 1:ntab)
-            call model_from_arrays(span(:, 1:nspan), reshape(hinge(1:nhinge), [1, nhinge]), &
-                                   reshape([real(wp) ::], [5, 0]), isup(:, 1:nsup), &
-                                   sup(:, 1:nsup), ilaw(1:nlaw), alaw(:, 1:nlaw), iload(:, 1:nload), aload(:, 1:nload), model, &
-                                   error)
+            call model_from_arrays(spans, hinges, sections, codes, supports, ilaw(1:nlaw), alaw(:, 1:nlaw), iload(:, 1:nload), &
+                                   aload(:, 1:nload), model, error)
         end if
         if (.not. allocated(error)) call foundations_from_arrays(ifound(1:nfound), ground, owners, points, iflaw(1:nflaw), &
                                                                  aflaw(:, 1:nflaw), model, error)
         if (.not. allocated(error)) then
-            if (nlaw > 0 .or. present(islaw)) model%supports%unloading = iunl(1:nsup)
-            if (present(islaw)) then
-                do k = 1, nsup
-                    model%supports(k)%law = islaw(k)
-                    model%supports(k)%parameter = slaw(:, k)
-                end do
-            end if
-            if (present(fric)) model%supports%friction = fric(1:nsup)
-            if (present(axial)) then
-                model%spans%N = axial(1, 1:nspan)
-                model%spans%mass = axial(2, 1:nspan)
-            end if
-            if (present(shear)) model%foundations%shear = shear(1:nfound)
             if (present(nmass)) model%masses = amass(:, 1:nmass)
-            if (present(nsec)) model%sections = sections_of(isec(:, 1:nsec), sec(:, 1:nsec))
             model%first_order = .true.
             if (present(igrow)) then
                 model%N_grows = modulo(igrow, 2) /= 0
@@ -114,22 +112,6 @@ contains
         ientry = error%entry
         if (error%code == gapbeam_bad_input) info = -argument_of(error, nprof)
     end subroutine prepare
-
-    !> Sections from ISEC and SEC
-    pure function sections_of(isec, sec) result(sections)
-        integer, intent(in) :: isec(:, :)
-        real(wp), intent(in) :: sec(:, :)
-        type(section_type) :: sections(size(sec, 2))
-        integer :: i
-
-        do i = 1, size(sections)
-            associate (a => sec(:, i), powers => isec(:, i))
-                sections(i) = section_type(from=a(1), to=a(2), EI=a(3), EI_to=a(4), GA=a(5), GA_to=a(6), EA=a(7), EA_to=a(8), &
-                                           N=a(9), friction=a(10), friction_to=a(11), bedding=a(12), EI_power=powers(1), &
-                                           GA_power=powers(2), EA_power=powers(3))
-            end associate
-        end do
-    end function sections_of
 
     !> The argument of GHPRAF, or of GHPRSL and GHPRFR, that bad input is about
     pure function argument_of(error, nprof) result(place)

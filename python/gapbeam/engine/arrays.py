@@ -25,8 +25,8 @@ class Columns(Record):
     hinge : numpy.ndarray
         Place of every hinge, and couple per relative rotation, 2 rows.
     section : numpy.ndarray
-        Left and right end; EI, GA, EA of the sections, at their right ends where they change, and their powers of a depth, limit of
-        ground along the beam, N, 13 rows.
+        Left and right end of the sections; EI, GA, EA at both, N; limit of ground along the beam at both, its stiffness; powers
+        of a depth that EI, GA, EA are, 15 rows.
     support_codes, support : numpy.ndarray
         Side, direction, node, way of unloading and law by its code of the supports, 5 rows of int; x, stiffness, gap, settlement,
         rotation, parameters of the law, 8 rows.

@@ -58,11 +58,11 @@ def with_ground(sections: np.ndarray, grounds: Sequence[AxialGround], not_given:
     found = np.full((len(sections), len(grounds)), not_given)
     found[0] = [one.from_ for one in grounds]
     found[1] = [not_given if one.to is None else one.to for one in grounds]
-    found[8:11] = 1.0
     limits = [one.limit if isinstance(one.limit, tuple) else (one.limit, not_given) for one in grounds]
-    found[11] = [np.inf if limit is None else limit for limit, _ in limits]
-    found[13] = [limit for _, limit in limits]
-    found[14] = [one.stiffness for one in grounds]
+    found[9] = [np.inf if limit is None else limit for limit, _ in limits]
+    found[10] = [limit for _, limit in limits]
+    found[11] = [one.stiffness for one in grounds]
+    found[12:] = 1.0
     return np.asfortranarray(np.hstack([sections[:, :-1], found, sections[:, -1:]]))
 
 

@@ -147,9 +147,9 @@ def _empty(rows: int, count: int, kind: type = float) -> np.ndarray:
 def _sections(items: Sequence[Any], grounds: Sequence[AxialGround]) -> np.ndarray:
     found = _empty(15, len(items))
     found[0, :-1], found[1, :-1] = _numbers(items, "from_"), _optional(items, "to")
-    found[5:8], found[8:11], found[11], found[12, :-1] = NOT_GIVEN, 1.0, 0.0, _optional(items, "N")
-    found[13], found[14] = NOT_GIVEN, np.inf
-    for row, key in enumerate(("EI", "GA", "EA"), 2):
+    found[8, :-1], found[9], found[10], found[11] = _optional(items, "N"), 0.0, NOT_GIVEN, np.inf
+    for row, power, key in ((2, 12, "EI"), (4, 13, "GA"), (6, 14, "EA")):
+        found[row + 1], found[power] = NOT_GIVEN, 1.0
         values = _column(items, key)
         tapered = [i for i, one in enumerate(values) if isinstance(one, tuple | Taper)] if isinstance(values, list) else []
         if not tapered:
@@ -157,7 +157,7 @@ def _sections(items: Sequence[Any], grounds: Sequence[AxialGround]) -> np.ndarra
             continue
         found[row, :-1] = [NOT_GIVEN if one is None else ends_of(one)[0] for one in values]
         for i in tapered:
-            found[[row + 3, row + 6], i] = ends_of(values[i])[1:]
+            found[[row + 1, power], i] = ends_of(values[i])[1:]
     return with_ground(found, grounds, NOT_GIVEN)
 
 
