@@ -186,7 +186,7 @@ contains
         type(ground_start_type) :: start
         logical :: first(size(closed)), last_closed(size(closed)), reached, gives_way, leaves
         real(wp), allocatable :: mode(:)
-        real(wp) :: share, step, least
+        real(wp) :: share, step
         integer :: search, number, solves
 
         first(:) = closed
@@ -236,32 +236,25 @@ contains
         solution%solves = solves
         solution%unique = .false.
         if (reached) then
-            call start_from(solution, closed, start)
-            call leave_supports(ground, solution, 1.0_wp, start, least, mode, leaves)
-            if (.not. leaves) return
             last = solution
-        else
-            call start_from(last, last_closed, start)
-            call leave_supports(ground, last, share, start, least, mode, leaves)
+            last_closed(:) = closed
+            share = 1.0_wp
         end if
-        if (leaves) then
-            share = least
-            last%acts(:, :) = start%zones%acts
-            last_closed(:) = start%closed
-        end if
+        call start_from(last, last_closed, start)
+        call leave_supports(ground, last, share, start, mode, leaves)
+        if (reached .and. .not. leaves) return
         if (allocated(error)) deallocate (error)
-        call buckle(ground, given, last, last_closed, share, solution, outcome, error, mode)
-
+        call buckle(ground, given, last, start, share, solution, outcome, error, mode)
     end subroutine follow_compression
 
     !> The end of stable states: how the beam gives way there
-    subroutine buckle(ground, given, last, closed, share, solution, outcome, error, mode)
+    subroutine buckle(ground, given, last, start, share, solution, outcome, error, mode)
         !> As for follow_compression
         type(ground_type), intent(in) :: ground
         real(wp), intent(in) :: given
-        !> The last state, its supports, and the share of the axial forces in it
+        !> The last state, its zones and supports as it leaves, and the share of the axial forces in it
         type(ground_solution_type), intent(in) :: last
-        logical, intent(in) :: closed(:)
+        type(ground_start_type), intent(inout) :: start
         real(wp), intent(in) :: share
         !> With that share and the mode, on the side to which the last state bends, or of the mode that is known
         type(ground_solution_type), intent(inout) :: solution
@@ -270,7 +263,6 @@ contains
         type(error_type), allocatable, intent(out) :: error
         !> Deflections of that, not allocated where none is
         real(wp), allocatable, intent(in) :: mode(:)
-        type(ground_start_type) :: start
         type(ground_type) :: pressed
         type(mode_shape_type) :: shape
         character(len=20) :: text
@@ -278,7 +270,6 @@ contains
         logical :: gives_way, lost
         integer :: found, i
 
-        call start_from(last, closed, start)
         call find_way_out(ground, last, share, start, gives_way)
         if (.not. gives_way) then
             write (text, "(es10.3e3)") given*share

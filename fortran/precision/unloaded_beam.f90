@@ -27,15 +27,14 @@ contains
 
     !> Look for the least share of the axial forces under which a beam buckles away from supports without force, or on to flatter
     !> pieces of their laws, and off ground. What a mode would press into, one way or the other, is kept in the next ones
-    subroutine leave_supports(ground, solution, most, start, share, mode, leaves)
+    subroutine leave_supports(ground, solution, share, start, mode, leaves)
         !> The beam under its axial forces, and its state
         type(ground_type), intent(in) :: ground
         type(ground_solution_type), intent(in) :: solution
-        !> Up to which share is looked
-        real(wp), intent(in) :: most
+        !> Up to which share is looked in; where there is one, the least out
+        real(wp), intent(inout) :: share
         !> Its zones and the states of its supports in; those in the mode out
         type(ground_start_type), intent(inout) :: start
-        real(wp), intent(out) :: share
         !> Deflections in it at the places of a mode_shape_type, the way in which it leaves
         real(wp), allocatable, intent(out) :: mode(:)
         !> Is there one
@@ -49,7 +48,6 @@ contains
         integer :: at, number, found, way, k
 
         leaves = .false.
-        share = most
         if (is_loaded(ground, solution)) return
         now(:) = start%closed
         closed(:, 1) = now

@@ -145,7 +145,8 @@ contains
         logical :: leaves
 
         call start_from(state%ground, state%closed, start)
-        if (what == by_axial_force) call leave_supports(ground, state%ground, huge(share), start, share, mode, leaves)
+        share = huge(share)
+        if (what == by_axial_force) call leave_supports(ground, state%ground, share, start, mode, leaves)
     end subroutine find_acting
 
     !> How far a mode may swing before a support closes or opens
