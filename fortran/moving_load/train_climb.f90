@@ -122,7 +122,6 @@ contains
         ruler = ruler_of(assembled, runs, runs%runs(run))
         first = max(k - 2, 1)
         final = min(k + 2, size(table%at))
-        if (k == 1) final = min(k + 2, size(table%at))
         allocate (at, source=angle_of(ruler, table%at(first:final)))
         allocate (heights, source=table%value(first:final))
         best = at(k - first + 1)
@@ -180,7 +179,6 @@ contains
                 best = there
                 best_height = value
                 top = peak_type(value=value, at=kept%position)
-                if (allocated(runs%top%of)) deallocate (runs%top%of)
                 call move_alloc(kept, runs%top%of)
             else if (there > best) then
                 right = there

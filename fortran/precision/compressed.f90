@@ -243,7 +243,6 @@ contains
         call start_from(last, last_closed, start)
         call leave_supports(ground, last, share, start, mode, leaves)
         if (reached .and. .not. leaves) return
-        if (allocated(error)) deallocate (error)
         call buckle(ground, given, last, start, share, solution, outcome, error, mode)
     end subroutine follow_compression
 

@@ -205,7 +205,6 @@ contains
             if (same) closed(:) = found
             if (same) return
             if (has_ended(error)) return
-            if (allocated(error)) deallocate (error)
             call fatal_error(error, gapbeam_not_converged, "the beam is held by so little here that its state is not unique")
             return
         end if
@@ -269,16 +268,13 @@ contains
         call reserve_for(for_refining, beam, detail, error)
         if (allocated(error)) return
         call refine_loaded_beam(beam, detail, real(factor, qp), fine, fine_work)
-        call find_fine_contact_state(fine, real(factor, qp), rule_block, closed, fine_work, found, error)
-        work%solves = work%solves + fine_work%solves
-        do try = 1, 2
+        do try = 0, 2
             ! Rigid stretches may touch more supports than they need: whether there is an answer must not depend on the start
-            if (.not. allocated(error)) exit
-            if (error%code /= gapbeam_indeterminate) exit
-            deallocate (error)
-            closed(:) = try == 1 .or. always_closed(beam%supports)
+            if (try > 0) closed(:) = try == 1 .or. always_closed(beam%supports)
             call find_fine_contact_state(fine, real(factor, qp), rule_block, closed, fine_work, found, error)
             work%solves = work%solves + fine_work%solves
+            if (.not. allocated(error)) exit
+            if (error%code /= gapbeam_indeterminate) exit
         end do
         if (allocated(error)) return
         outcome = outcome_type(status=found%status, indifferent=found%indifferent)

@@ -77,7 +77,6 @@ contains
                 if (is_one_branch(ground, near, found, factor)) return
             end if
             if (has_ended(error)) return
-            if (allocated(error)) deallocate (error)
             call solve_near(way, 1.0_wp, near%factor, near, closed, solution, outcome, error)
             if (has_ended(error)) return
             if (is_solved(outcome, error)) then
@@ -180,7 +179,6 @@ contains
         call solve_filled(way, place_on(way, merge(1.0_wp, 2.0_wp, way%at < 1.0_wp)), closed, solution, outcome, error)
         if (has_ended(error)) return
         if (.not. allocated(error) .and. outcome%status /= gapbeam_solved) return
-        if (allocated(error)) deallocate (error)
         call fatal_error(error, gapbeam_not_converged, "the beam could not be followed beyond load factor "// &
                          trim(shown(way%last%factor))//", where it is still stable: look for supports or ground far stiffer "// &
                          "than it")

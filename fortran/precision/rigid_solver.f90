@@ -62,7 +62,6 @@ contains
         call straighten(fine, straight)
         do mesh = 0, most_rigid_meshes - 1
             closed(:) = start
-            if (allocated(error)) deallocate (error)
             call touch_on_mesh(ground, factor, rule, 4**mesh, closed, contacts, rigid%solves, outcome, error)
             solution%solves = rigid%solves
             if (allocated(error) .or. outcome%status /= gapbeam_solved) return
@@ -86,7 +85,6 @@ contains
             work = rigid%work
             return
         end do
-        if (allocated(error)) deallocate (error)
         call fatal_error(error, gapbeam_not_converged, "where the beam touches the rigid ground could not be settled: look for "// &
                          "loads or supports that press it against a corner of the ground or hold it where it turns into the "// &
                          "ground, or give the ground a stiffness k")
