@@ -20,7 +20,7 @@ module gapbeam_ground_query
     private
     public :: ground_values, ground_extremes
     ! For gapbeam_pressure and gapbeam_ground_distance
-    public :: layers_under, stretch_of, share_of, values_in, curved_in, peaks_in
+    public :: layers_under, stretch_of, share_of, values_in, curved_in, compare, peaks_in
 
 contains
 
@@ -184,26 +184,34 @@ contains
         subroutine consider(k, at)
             integer, intent(in) :: k
             real(wp), intent(in) :: at
-            real(wp) :: all_of_them(bending_count), value, place
+            real(wp) :: all_of_them(bending_count), place
 
             place = along(solution%from(i), solution%to(i), at, 1.0_wp)
             associate (piece => assembled%pieces(solution%piece(i)))
                 all_of_them(:) = bending_values(field, piece, curvature_at(load, place, piece%length), place)
             end associate
-            value = all_of_them(k)
-            if (value > values(1, k) + same_extreme*abs(values(1, k))) then
-                values(1, k) = value
-                piece(1, k) = solution%piece(i)
-                distance(1, k) = place
-            end if
-            if (value < values(2, k) - same_extreme*abs(values(2, k))) then
-                values(2, k) = value
-                piece(2, k) = solution%piece(i)
-                distance(2, k) = place
-            end if
+            call compare(solution, i, at, all_of_them(k), same_extreme, values(:, k), piece(:, k), distance(:, k))
         end subroutine consider
 
     end subroutine ground_extremes
+
+    !> Compare a value inside a stretch with the extremes so far
+    pure subroutine compare(solution, i, xi, found, slack, value, piece, distance)
+        type(ground_solution_type), intent(in) :: solution
+        !> Stretch
+        integer, intent(in) :: i
+        !> Share of its length, the value there, and the share of an extreme by which another one is beyond it
+        real(wp), intent(in) :: xi, found, slack
+        !> Maximum (1) and minimum (2), their pieces, and distances from the left ends of these
+        real(wp), intent(inout) :: value(2), distance(2)
+        integer, intent(inout) :: piece(2)
+
+        where ([found > value(1) + slack*abs(value(1)), found < value(2) - slack*abs(value(2))])
+            value = found
+            piece = solution%piece(i)
+            distance = along(solution%from(i), solution%to(i), xi, 1.0_wp)
+        end where
+    end subroutine compare
 
     !> Where fields of a stretch are stationary, of the deflection that beside a line
     pure subroutine peaks_in(solution, i, fields, slope, curved, xi, numbers)

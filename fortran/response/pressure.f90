@@ -14,7 +14,7 @@ module gapbeam_pressure
     use gapbeam_layers, only: layer_type, law_piece
     use gapbeam_curved, only: curved_type
     use gapbeam_ground_laws, only: contact_line, slope_of_layer, along, push_of_layer
-    use gapbeam_ground_query, only: layers_under, stretch_of, share_of, values_in, peaks_in
+    use gapbeam_ground_query, only: layers_under, stretch_of, share_of, values_in, compare, peaks_in
     implicit none
     private
     public :: pressure_in_pieces, extremes_of_pressure, ground_pressure, pressure_extremes
@@ -190,7 +190,6 @@ contains
         real(wp), intent(out) :: values(2), distance(2)
         integer, intent(out) :: piece(2)
         real(wp), allocatable :: xi(:)
-        real(wp) :: pressure
         integer :: i, j
 
         values = [-huge(1.0_wp), huge(1.0_wp)]
@@ -239,20 +238,8 @@ contains
         subroutine consider(at)
             real(wp), intent(in) :: at
 
-            pressure = pressure_in(assembled, solution, i, at)
-            if (pressure > values(1)) call keep(1, at)
-            if (pressure < values(2)) call keep(2, at)
+            call compare(solution, i, at, pressure_in(assembled, solution, i, at), 0.0_wp, values, piece, distance)
         end subroutine consider
-
-        !> Note an extreme
-        subroutine keep(which, at)
-            integer, intent(in) :: which
-            real(wp), intent(in) :: at
-
-            values(which) = pressure
-            piece(which) = solution%piece(i)
-            distance(which) = along(solution%from(i), solution%to(i), at, 1.0_wp)
-        end subroutine keep
 
     end subroutine pressure_extremes
 

@@ -4,11 +4,10 @@ module gapbeam_transverse
     use gapbeam_tolerances, only: same_extreme
     use gapbeam_foundation_question, only: slope_of_transverse
     use gapbeam_curved, only: curved_type
-    use gapbeam_ground_laws, only: along
     use gapbeam_ground_fields, only: inside_type, prepare_inside, force_at_end, force_inside
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_ground_query, only: layers_under, stretch_of, share_of, curved_in, peaks_in
+    use gapbeam_ground_query, only: layers_under, stretch_of, share_of, curved_in, compare, peaks_in
     implicit none
     private
     public :: transverse_forces, transverse_extremes
@@ -71,31 +70,15 @@ contains
         piece = 1
         distance = 0.0_wp
         do i = 1, size(solution%piece)
-            call consider(force_at_end(solution, i, 1), 0.0_wp)
-            call consider(force_at_end(solution, i, 2), 1.0_wp)
+            do j = 1, 2
+                call compare(solution, i, real(j - 1, wp), force_at_end(solution, i, j), same_extreme, value, piece, distance)
+            end do
             call curved_in(assembled, solution, i, curved)
             call peaks_in(solution, i, [slope_of_transverse], 0.0_wp, curved, xi)
             do j = 1, size(xi)
-                call consider(force_in(assembled, solution, i, xi(j)), xi(j))
+                call compare(solution, i, xi(j), force_in(assembled, solution, i, xi(j)), same_extreme, value, piece, distance)
             end do
         end do
-
-    contains
-
-        !> Compare with the extremes so far
-        subroutine consider(force, at)
-            real(wp), intent(in) :: force, at
-            integer :: k
-            real(wp), parameter :: sense(2) = [1.0_wp, -1.0_wp]
-
-            do k = 1, 2
-                if (.not. sense(k)*(force - value(k)) > same_extreme*abs(value(k))) cycle
-                value(k) = force
-                piece(k) = solution%piece(i)
-                distance(k) = along(solution%from(i), solution%to(i), at, 1.0_wp)
-            end do
-        end subroutine consider
-
     end subroutine transverse_extremes
 
 end module gapbeam_transverse
