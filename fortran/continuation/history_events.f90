@@ -69,13 +69,12 @@ contains
         !> What happens to every support where a stretch begins
         subroutine note_changes(other)
             integer, intent(in) :: other
-            integer :: added
+            integer :: before
 
-            call find_changes_across(assembled, path, other, at, pieces, events, number, added)
-            pending = pending + added
-            if (.not. allocated(assembled%axial%laws)) return
-            call find_changes_along(assembled, path, other - 1, other, events, number, added)
-            pending = pending + added
+            before = number
+            call find_changes_across(assembled, path, other, at, pieces, events, number)
+            if (allocated(assembled%axial%laws)) call find_changes_along(assembled, path, other, events, number)
+            pending = pending + number - before
         end subroutine note_changes
 
         !> The path ends at a limit: what happens there is all that happens
@@ -115,7 +114,7 @@ contains
     end subroutine go_to
 
     !> What happens to every support across the beam where a stretch begins
-    subroutine find_changes_across(assembled, path, other, at, pieces, events, number, added)
+    subroutine find_changes_across(assembled, path, other, at, pieces, events, number)
         type(assembled_type), intent(in) :: assembled
         type(history_type), intent(in) :: path
         !> The stretch
@@ -123,16 +122,14 @@ contains
         !> As for go_to
         integer, intent(inout) :: at
         type(pieces_type), intent(inout) :: pieces
-        !> As for find_changes_along
+        !> Added to; how many there are
         type(event_type), allocatable, intent(inout) :: events(:)
         integer, intent(inout) :: number
-        integer, intent(out) :: added
         type(acting_type), allocatable :: before(:)
         type(acting_type) :: after
         integer, allocatable :: which(:)
-        integer :: i, change, begun
+        integer :: i, change
 
-        begun = number
         call go_to(path, other - 1, at, pieces)
         allocate (which, source=changing(assembled, path%stretches(other), pieces))
         before = [(acts_in(assembled, which(i), pieces%closed, pieces%laws), i=1, size(which))]
@@ -143,7 +140,6 @@ contains
             if (change == no_change) cycle
             call add_event(event_type(path%stretches(other)%from, which(i), after%condition, change, other), events, number)
         end do
-        added = number - begun
     end subroutine find_changes_across
 
     !> Breakpoints that open or close where a stretch begins
@@ -180,22 +176,19 @@ contains
         end associate
     end function changing
 
-    !> What happens to every link along the beam between two stretches
-    subroutine find_changes_along(assembled, path, one, other, events, number, added)
+    !> What happens to every link along the beam there
+    subroutine find_changes_along(assembled, path, other, events, number)
+        !> As for find_changes_across
         type(assembled_type), intent(in) :: assembled
         type(history_type), intent(in) :: path
-        integer, intent(in) :: one, other
-        !> Added to; how many there are
+        integer, intent(in) :: other
         type(event_type), allocatable, intent(inout) :: events(:)
         integer, intent(inout) :: number
-        !> How many were added
-        integer, intent(out) :: added
         type(link_change_type), allocatable :: changes(:)
         integer :: k
 
-        allocate (changes, source=changes_along(assembled, path%stretches(one)%along, path%stretches(other)%along))
-        added = size(changes)
-        do k = 1, added
+        allocate (changes, source=changes_along(assembled, path%stretches(other - 1)%along, path%stretches(other)%along))
+        do k = 1, size(changes)
             associate (c => changes(k))
                 call add_event(event_type(path%stretches(other)%from, c%support, c%condition, c%change, other), events, number)
             end associate
