@@ -154,7 +154,7 @@ contains
         real(wp) :: way
         integer :: tangents, solves, stat
         logical :: searching, settled, unique
-        type(ground_start_type) :: start
+        type(ground_start_type), allocatable :: start
 
         allocate (places(size(numbers)), stat=stat)
         if (stat /= 0) call no_memory(error)
@@ -190,15 +190,12 @@ contains
             if (.not. allocated(state%laws)) state%laws = assembled%beam%supports
             call put_tangents(assembled, numbers, tangents, searching, places, state%laws)
             if (allocated(state%ground) .and. state%status == gapbeam_solved) then
+                if (.not. allocated(start)) allocate (start)
                 call start_from(state%ground, state%closed, start)
                 unique = unique .and. state%ground%unique
             end if
-            if (allocated(start%closed)) then
-                call solve_state(assembled, factor, rule, state, error, start)
-                if (allocated(state%ground)) state%ground%unique = state%ground%unique .and. unique
-            else
-                call solve_state(assembled, factor, rule, state, error)
-            end if
+            call solve_state(assembled, factor, rule, state, error, start)
+            if (allocated(state%ground)) state%ground%unique = state%ground%unique .and. unique
             solves = solves + state%solves
             state%solves = solves
             if (allocated(error)) return
@@ -218,7 +215,6 @@ contains
             end if
         end do
         call refuse_laws(error)
-
     end subroutine follow_tangents
 
     !> Refuse laws that tangents do not settle on
