@@ -215,8 +215,8 @@ contains
         integer :: k, n
 
         scale_of_law = law_scale(law, p)
-        allocate (ways(points_of_curve))
-        ways(:) = [(scale_of_law*2.0_wp**(widest*(2*real(k, wp)/(points_of_curve - 1) - 1)), k=0, points_of_curve - 1)]
+        allocate (ways, source=[(scale_of_law*2.0_wp**(widest*(2*real(k, wp)/(points_of_curve - 1) - 1)), &
+                                 k=0, points_of_curve - 1)])
         if (law == law_cubic .and. p(2) < 0.0_wp) then
             ! Where it softens at equal distances, up to twice where the force is nearest to 0
             spacing = 2*scale_of_law/points_of_curve

@@ -30,11 +30,9 @@ contains
         allocate (bedding%softness, source=real(softness, qp))
         allocate (bedding%stiffness, source=real(stiffness, qp))
         allocate (bedding%limit, source=min(real(limit, qp), no_limit))
-        allocate (bedding%support(0:n), bedding%displacement(0:n), bedding%loads%node(0:n))
-        bedding%support(:) = support
-        bedding%displacement(:) = 0.0_qp
-        bedding%loads%node(:) = 0.0_qp
-        allocate (bedding%loads%along(n), bedding%loads%longer(n), source=0.0_qp)
+        allocate (bedding%support(0:n), source=support)
+        allocate (bedding%displacement(0:n), bedding%loads%node(0:n), bedding%loads%along(n), bedding%loads%longer(n), &
+                  source=0.0_qp)
         allocate (bedding%memory, source=[(memory_type(j), j=1, n)])
         call hold_all(bedding)
     end subroutine new_bedding

@@ -76,13 +76,9 @@ contains
         n = size(softness)
         ground%softness = softness
         ground%limit = limit
-        allocate (ground%stiffness(0:n), ground%load_rate(0:n), ground%longer_rate(n), ground%moves(0:n), ground%way(0:n), &
-                  ground%displacement(0:n), ground%longer(n))
-        ground%stiffness(:) = stiffness
-        ground%load_rate(:) = 0.0_wp
-        ground%longer_rate(:) = 0.0_wp
-        ground%displacement(:) = 0.0_wp
-        ground%longer(:) = 0.0_wp
+        allocate (ground%stiffness(0:n), source=stiffness)
+        allocate (ground%load_rate(0:n), ground%longer_rate(n), ground%displacement(0:n), ground%longer(n), source=0.0_wp)
+        allocate (ground%moves(0:n), ground%way(0:n))
         ground%parts = [(part_type(j), j=1, n)]
         call start_leg(ground)
     end subroutine new_ground_along

@@ -237,8 +237,7 @@ contains
                 bracket = bracket_type(bracket%high, 8*bracket%high, bracket%at_high, 0.0_wp)
             end do
             if (.not. stopped) then
-                allocate (motion(0:size(ground%pieces)))
-                motion(:) = outcome%motion(mesh%node)
+                allocate (motion(0:size(ground%pieces)), source=outcome%motion(mesh%node))
                 call move_alloc(motion, outcome%motion)
                 return
             end if

@@ -56,10 +56,7 @@ contains
                 mesh%to(mesh%node(j - 1) + i) = between(0.0_wp, ground%pieces(j)%length, i, parts(j))
             end do
         end do
-        allocate (mesh%deflection(0:sum(parts)), mesh%moment_left(0:sum(parts)), mesh%moment_right(0:sum(parts)))
-        mesh%deflection(:) = 0.0_wp
-        mesh%moment_left(:) = 0.0_wp
-        mesh%moment_right(:) = 0.0_wp
+        allocate (mesh%deflection(0:sum(parts)), mesh%moment_left(0:sum(parts)), mesh%moment_right(0:sum(parts)), source=0.0_wp)
 
     contains
 

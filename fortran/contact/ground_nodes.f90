@@ -112,11 +112,9 @@ contains
         integer :: i, n
 
         n = size(mesh%piece)
-        allocate (beam%links(n), beam%kind(0:n), beam%compliance(0:n), beam%force(2, 0:n), beam%couple(2, 0:n))
-        beam%kind(:) = plain
-        beam%compliance(:) = 0.0_wp
-        beam%force(:, :) = 0.0_wp
-        beam%couple(:, :) = 0.0_wp
+        allocate (beam%links(n))
+        allocate (beam%kind(0:n), source=plain)
+        allocate (beam%compliance(0:n), beam%force(2, 0:n), beam%couple(2, 0:n), source=0.0_wp)
         beam%kind(mesh%node) = ground%beam%kind
         beam%compliance(mesh%node) = ground%beam%compliance
         beam%force(:, mesh%node) = ground%beam%force

@@ -44,9 +44,7 @@ contains
         real(wp) :: stiffness, largest
 
         call find_pairs(beam%supports, iterate%support, iterate%side, iterate%contact, iterate%compliance)
-        allocate (work%spring(size(closed)), work%spring_contact(size(closed)))
-        work%spring = 0.0_wp
-        work%spring_contact = 0.0_wp
+        allocate (work%spring(size(closed)), work%spring_contact(size(closed)), source=0.0_wp)
         associate (i => iterate%support, side => iterate%side, contact => iterate%contact)
             stiffness = first_spring*softest(beam)*size(beam%links)
             work%spring(i) = stiffness

@@ -104,8 +104,7 @@ contains
             number(:) = pack([(j, j=1, size(closed))], beam%supports%node >= from .and. beam%supports%node <= to)
             exit
         end do
-        allocate (supports(size(number)))
-        supports(:) = beam%supports(number)
+        supports = beam%supports(number)
         supports%node = supports%node - from
         call order_supports(supports, subdomain)
         call new_workspace(subdomain, subdomain_work)

@@ -97,11 +97,8 @@ contains
         allocate (work%reach_own(0:n), work%reach_left(0:n), work%reach_right(0:n))
         allocate (work%shear_size(0:last), work%deflection_size(0:last))
         allocate (work%reaction(m), work%reaction_error(m))
-        allocate (work%proximal_weight(0:n), work%reference(0:n))
-        work%proximal_weight = 0.0_wp
-        work%reference = 0.0_wp
-        allocate (work%fixity(n), work%reach(n), work%inverse(n))
-        work%fixity = 0.0_wp
+        allocate (work%proximal_weight(0:n), work%reference(0:n), work%fixity(n), source=0.0_wp)
+        allocate (work%reach(n), work%inverse(n))
         where (beam%links%bending > 0.0_wp) work%fixity = 1/beam%links%bending
         work%inverse = beam%links%inverse
         work%reach = max(beam%links%bending, beam%links%faa + beam%links%fbb)*beam%links%length

@@ -69,9 +69,8 @@ contains
 
         allocate (path%factor(max(most, 1)), path%support(max(most, 1)), path%event(max(most, 1)))
         path%most = most
-        allocate (closed_before(size(closed)), marginal_before(size(closed)))
-        closed_before(:) = closed
-        marginal_before(:) = marginal
+        closed_before = closed
+        marginal_before = marginal
         begin = factor
         call new_stretch(beam, stretch)
         call follow(beam, detail, limit, factor, closed, marginal, stretch, path, outcome, error)

@@ -28,9 +28,7 @@ contains
         n = size(b)
         m = half_bandwidth
         ! row(:, i) holds columns i - m to i + 2 m of row i
-        allocate (row(-m:2*m, n), scale(n))
-        scale(:) = 0.0_wp
-        row(:, :) = 0.0_wp
+        allocate (row(-m:2*m, n), scale(n), source=0.0_wp)
         regular = .false.
         do i = 1, n
             do j = max(1, i - m), min(n, i + m)

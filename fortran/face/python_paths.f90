@@ -41,9 +41,8 @@ subroutine gbpath(most, beam, nl, ns, limit, factor, closed, margin, events, at,
     motion = 0.0d0
     solves = 0
     nodes = 0
-    allocate (acting(ns), zero(ns))
-    acting(:) = closed(:ns) /= 0
-    zero(:) = margin(:ns) /= 0
+    acting = closed(:ns) /= 0
+    zero = margin(:ns) /= 0
     call follow_some_events(handle%beam%lowered, limit, most, factor, acting, zero, path, outcome, error)
     call report(error, status, message)
     if (allocated(error)) return

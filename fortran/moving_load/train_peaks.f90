@@ -275,8 +275,7 @@ contains
         integer :: i, k
         logical :: beside
 
-        allocate (at(size(found)))
-        at(:) = found%at
+        allocate (at(size(found)), source=found%at)
         where (found%value < least) at = huge(at)
         do i = 1, size(found)
             k = minloc(at, 1)

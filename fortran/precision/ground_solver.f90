@@ -165,8 +165,7 @@ contains
         if (on_edge .and. outcome%status == gapbeam_no_equilibrium) then
             ! The last node alone holds what no zone can, however short: the beam tips over the edge of the ground
             if (size(outcome%motion) /= size(grounded%node)) then
-                allocate (motion(0:size(ground%pieces)))
-                motion(:) = outcome%motion(grounded%node)
+                allocate (motion(0:size(ground%pieces)), source=outcome%motion(grounded%node))
                 call move_alloc(motion, outcome%motion)
             end if
             outcome%motion(:) = merge(0.0_wp, outcome%motion, abs(outcome%motion) <= no_displacement)

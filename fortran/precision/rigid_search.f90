@@ -58,8 +58,7 @@ contains
         if (outcome%status == gapbeam_solved) then
             call join_places(ground, rigid, contacts)
         else if (allocated(outcome%motion)) then
-            allocate (motion(0:size(ground%pieces)))
-            motion(:) = outcome%motion(rigid%grounded%node)
+            allocate (motion(0:size(ground%pieces)), source=outcome%motion(rigid%grounded%node))
             call move_alloc(motion, outcome%motion)
         end if
     end subroutine touch_on_mesh

@@ -30,10 +30,8 @@ contains
         by_case(:) = merge([real(factor, qp), 0.0_qp], [1.0_qp, real(factor, qp)], is_dead)
         associate (axial => assembled%axial)
             n = size(axial%softness)
-            allocate (loads%node(0:n), loads%along(n), loads%longer(n))
-            loads%node(:) = matmul(by_case, real(axial%force, qp))
-            loads%along(:) = 0.0_qp
-            loads%longer(:) = 0.0_qp
+            allocate (loads%node(0:n), source=matmul(by_case, real(axial%force, qp)))
+            allocate (loads%along(n), loads%longer(n), source=0.0_qp)
             if (allocated(axial%elongation)) loads%longer(:) = matmul(by_case, real(axial%elongation, qp))
             if (.not. allocated(axial%along_bar)) return
             loads%along(:) = matmul(by_case, real(axial%along_bar, qp))
