@@ -8,8 +8,8 @@ module gapbeam_laws
     implicit none
     private
     public :: law_by_points, law_plastic, law_hardening, law_hyperbolic, law_tanh, law_cubic, law_polyline, law_power, law_brittle
-    public :: parameters_of_law, is_smooth, begins_steep, law_force, law_slope, law_energy, law_displacement, law_bound, &
-        law_scale, law_points
+    public :: parameters_of_law, parameters_of, key_of_parameter, is_smooth, begins_steep, law_force, law_slope, law_energy, &
+        law_displacement, law_bound, law_scale, law_points
 
     !> Laws: by points, or none; elastic up to a force (stiffness, limit), of another slope beyond (and slope); curves that tend to
     !> a force (stiffness, limit); k1 d + k2 d**2 + k3 d**3 (k1, k2, k3)
@@ -24,6 +24,28 @@ module gapbeam_laws
     integer, parameter :: points_of_curve = 96, widest = 20
 
 contains
+
+    !> How many parameters a law has
+    elemental function parameters_of(law) result(number)
+        integer, intent(in) :: law
+        integer :: number
+
+        number = merge(3, 2, any(law == [law_hardening, law_cubic, law_power]))
+        if (law == law_by_points) number = 0
+    end function parameters_of
+
+    !> A parameter as scenes call it, blanks behind it
+    pure function key_of_parameter(law, number) result(key)
+        integer, intent(in) :: law, number
+        character(len=13) :: key
+        character(len=*), parameter :: keys(parameters_of_law) = [character(len=9) :: "stiffness", "limit", "slope"], &
+                                       of_cubic(parameters_of_law) = [character(len=9) :: "k1", "k2", "k3"], &
+                                       of_power(parameters_of_law) = [character(len=9) :: "d0", "limit", "n"]
+
+        key = "law."//keys(number)
+        if (law == law_cubic) key = "law."//of_cubic(number)
+        if (law == law_power) key = "law."//of_power(number)
+    end function key_of_parameter
 
     !> Is a law a curve
     elemental function is_smooth(law) result(it_is)

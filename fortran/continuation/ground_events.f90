@@ -86,8 +86,7 @@ contains
         associate (supports => assembled%beam%supports, changed => before%closed .neqv. after%closed)
             k = 1
             do while (k <= size(supports))
-                last = k
-                if (supports(k)%breakpoint > 0) last = last_breakpoint(supports, k)
+                last = last_breakpoint(supports, k)
                 associate (s => assembled%normal(k), point => assembled%support_point(assembled%normal(k)))
                     what = what_happens(acts_in(assembled, s, before%closed), acts_in(assembled, s, after%closed))
                     if (what /= no_change) call add_event(ground_event_type(factor(n + 1), point_x(assembled, point), support=s, &

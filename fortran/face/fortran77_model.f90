@@ -3,10 +3,9 @@ module gapbeam_fortran77_model
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory, gapbeam_bad_input
-    use gapbeam_laws, only: parameters_of_law
+    use gapbeam_laws, only: parameters_of_law, parameters_of
     use gapbeam_scene, only: model_type, gapbeam_table_of_gap
     use gapbeam_input_error, only: of_spans, of_supports, of_sections, of_foundations, not_expected
-    use gapbeam_check_ground_laws, only: has_parameter
     use gapbeam_arrays, only: model_from_arrays, foundations_from_arrays
     use gapbeam_handles, only: handle_type, number_of
     use gapbeam_new_objects, only: new_beam
@@ -79,7 +78,7 @@ contains
             ground(7, :) = iglaw(1:nfound)
             do k = 1, nfound
                 ! Parameters that its law does not have may hold anything
-                ground(8:13, k) = merge(glaw(:, k), 0.0_wp, has_parameter(iglaw(k), [1, 2, 3, 1, 2, 3]))
+                ground(8:13, k) = merge(glaw(:, k), 0.0_wp, [1, 2, 3, 1, 2, 3] <= parameters_of(iglaw(k)))
             end do
             if (present(shear)) ground(14, :) = shear(1:nfound)
             owners(:nprof) = iprof(1:nprof)

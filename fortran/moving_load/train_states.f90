@@ -161,8 +161,7 @@ contains
             kept%decided(:) = .true.
             k = 1
             do while (k <= size(supports))
-                last = k
-                if (supports(k)%breakpoint > 0) last = last_breakpoint(supports, k)
+                last = last_breakpoint(supports, k)
                 s = placed%normal(k)
                 if (is_smooth(models(s)%law)) then
                     call past_curve(placed, s, kept%state%deflection, kept%state%reaction, past, way)

@@ -8,9 +8,8 @@ module gapbeam_check_foundations
         gapbeam_table_of_parameter
     use gapbeam_tolerances, only: position_tolerance
     use gapbeam_input_error, only: refuse, of_foundations, not_expected, bad_law
-    use gapbeam_laws, only: parameters_of_law
-    use gapbeam_check_ground_laws, only: check_law_kind, check_parameter, check_parameters, has_parameter, may_be_negative, &
-        key_of_parameter
+    use gapbeam_laws, only: parameters_of_law, parameters_of, key_of_parameter
+    use gapbeam_check_ground_laws, only: check_law_kind, check_parameter, check_parameters, may_be_negative
     use gapbeam_check, only: entry_type, check_stretch, refuse_entry, refuse_number
     implicit none
     private
@@ -188,7 +187,7 @@ contains
         do i = 1, parameters_of_law
             if (allocated(error)) return
             associate (q => gapbeam_table_of_parameter + i - 1)
-                if (.not. has_parameter(f%law, i)) then
+                if (i > parameters_of(f%law)) then
                     if (has(q)) call refuse_entry(error, here, "law", bad_law, "has no parameter "//trim(whole(i))// &
                                                   ", of which there is a table; leave it out")
                 else if (.not. has(q)) then

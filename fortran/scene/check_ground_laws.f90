@@ -3,17 +3,13 @@ module gapbeam_check_ground_laws
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: cubic_rounding
     use gapbeam_error, only: error_type
-    use gapbeam_laws, only: law_by_points, law_plastic, law_hardening, law_cubic, parameters_of_law
+    use gapbeam_laws, only: law_by_points, law_plastic, law_hardening, law_cubic, parameters_of_law, key_of_parameter
     use gapbeam_words, only: shown, whole
     use gapbeam_input_error, only: not_expected, bad_law
     use gapbeam_check, only: entry_type, refuse_entry
     implicit none
     private
-    public :: check_law_kind, check_parameter, check_parameters, has_parameter, may_be_negative, key_of_parameter
-
-    !> Parameters as scenes call them
-    character(len=*), parameter :: names(parameters_of_law) = [character(len=13) :: "law.stiffness", "law.limit", "law.slope"], &
-                                   names_of_cubic(parameters_of_law) = [character(len=13) :: "law.k1", "law.k2", "law.k3"]
+    public :: check_law_kind, check_parameter, check_parameters, may_be_negative
 
 contains
 
@@ -28,14 +24,6 @@ contains
         call refuse_entry(error, here, "law", not_expected, "expected 0 to "//trim(whole(law_cubic))//", got "//trim(whole(law)))
     end subroutine check_law_kind
 
-    !> Does a law have a parameter
-    elemental function has_parameter(law, number) result(has)
-        integer, intent(in) :: law, number
-        logical :: has
-
-        has = law /= law_by_points .and. number <= merge(parameters_of_law, 2, law == law_cubic .or. law == law_hardening)
-    end function has_parameter
-
     !> May a parameter be below 0
     elemental function may_be_negative(law, number) result(may)
         integer, intent(in) :: law, number
@@ -43,14 +31,6 @@ contains
 
         may = law == law_cubic .and. number == 2
     end function may_be_negative
-
-    !> A parameter as scenes call it, blanks behind it
-    pure function key_of_parameter(law, number) result(key)
-        integer, intent(in) :: law, number
-        character(len=len(names)) :: key
-
-        key = merge(names_of_cubic(number), names(number), law == law_cubic)
-    end function key_of_parameter
 
     !> One parameter of a law alone
     pure subroutine check_parameter(law, number, values, here, error)

@@ -70,30 +70,32 @@ contains
         integer :: i
 
         do i = 1, size(model%supports)
-            associate (unloading => model%supports(i)%unloading)
+            associate (unloading => model%supports(i)%unloading, both_ways => model%supports(i)%side == gapbeam_both)
                 if (unloading == gapbeam_elastic) cycle
                 if (.not. seen(i)) then
-                    call refuse(error, of_supports, i, size(model%supports), bad_law, "unloading", "only a support with a law "// &
-                                "unloads in another way than along it; give law, or remove it")
-                    return
+                    call say("unloading", "only a support with a law unloads in another way than along it; give law, or remove it")
+                else if (both_ways .and. unloading == gapbeam_broken) then
+                    call say("unloading", "a support that holds both ways does not break for good; put one below and one above "// &
+                             "at this place instead")
+                else if (both_ways .and. unloading == gapbeam_plastic .and. abs(model%supports(i)%gap) > 0.0_wp) then
+                    call say("gap", "a support that holds both ways and yields has none in this version; put one below and one "// &
+                             "above at this place instead")
+                else if (unloading < gapbeam_elastic .or. unloading > gapbeam_broken) then
+                    call say("unloading", "expected 0 (elastic), 1 (plastic) or 2 (broken)")
                 end if
-                if (model%supports(i)%side == gapbeam_both .and. unloading == gapbeam_broken) then
-                    call refuse(error, of_supports, i, size(model%supports), bad_law, "unloading", "a support that holds both "// &
-                                "ways does not break for good; put one below and one above at this place instead")
-                    return
-                end if
-                if (model%supports(i)%side == gapbeam_both .and. unloading == gapbeam_plastic &
-                    .and. abs(model%supports(i)%gap) > 0.0_wp) then
-                    call refuse(error, of_supports, i, size(model%supports), bad_law, "gap", "a support that holds both ways "// &
-                                "and yields has none in this version; put one below and one above at this place instead")
-                    return
-                end if
-                if (unloading > gapbeam_elastic .and. unloading <= gapbeam_broken) cycle
-                call refuse(error, of_supports, i, size(model%supports), bad_law, "unloading", &
-                            "expected 0 (elastic), 1 (plastic) or 2 (broken)")
-                return
+                if (allocated(error)) return
             end associate
         end do
+
+    contains
+
+        !> What is wrong
+        subroutine say(key, problem)
+            character(len=*), intent(in) :: key, problem
+
+            call refuse(error, of_supports, i, size(model%supports), bad_law, key, problem)
+        end subroutine say
+
     end subroutine check_ways_to_unload
 
     !> The points of a law

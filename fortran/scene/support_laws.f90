@@ -6,15 +6,16 @@ module gapbeam_support_laws
     use gapbeam_memory, only: reserve_memory, for_laws
     use gapbeam_words, only: shown, whole
     use gapbeam_laws, only: law_by_points, law_plastic, law_hardening, law_hyperbolic, law_tanh, law_cubic, law_power, &
-        law_brittle, is_smooth, law_points
+        law_brittle, parameters_of, key_of_parameter, is_smooth, law_points
     use gapbeam_scene, only: model_type, support_type, law_point_type, gapbeam_elastic
     use gapbeam_input_error, only: refuse, of_supports, bad_law
     implicit none
     private
     public :: gather_points
 
-    !> Least value of a parameter: above 0, 0, or any
+    !> Least value of a parameter: above 0, 0, or any; the same in words, with a blank before them
     integer, parameter :: above_zero = 1, not_negative = 2, any_sign = 3
+    character(len=*), parameter :: bounds(any_sign) = [character(len=14) :: " above 0", " of 0 or more", ""]
 
     !> The points of a law by name
     type :: made_type
@@ -118,21 +119,13 @@ contains
                     right = value >= -huge(value)
                 end select
                 if (finite .and. right) right = value <= huge(value)
-                if (.not. right) call say("law."//trim(key_of(s%law, number)), "expected "// &
+                if (.not. right) call say(trim(key_of_parameter(s%law, number)), "expected "// &
                                           trim(merge("a finite number", "a number       ", finite))// &
-                                          trim(bound_of(s%law, number))//", got "//trim(shown(value)))
+                                          trim(bounds(least_of(s%law, number)))//", got "//trim(shown(value)))
             end associate
         end subroutine check_number
 
     end subroutine check_law
-
-    !> How many parameters a law of a support has
-    elemental function parameters_of(law) result(number)
-        integer, intent(in) :: law
-        integer :: number
-
-        number = merge(3, 2, law == law_cubic .or. law == law_power .or. law == law_hardening)
-    end function parameters_of
 
     !> The least value of a parameter
     elemental function least_of(law, number) result(least)
@@ -143,27 +136,5 @@ contains
         if (law == law_cubic) least = merge(any_sign, not_negative, number == 2)
         if (law == law_hardening .and. number == 3) least = not_negative
     end function least_of
-
-    !> The same in words, with a blank before them
-    pure function bound_of(law, number) result(words)
-        integer, intent(in) :: law, number
-        character(len=14) :: words
-        character(len=*), parameter :: bounds(3) = [character(len=14) :: " above 0", " of 0 or more", ""]
-
-        words = bounds(least_of(law, number))
-    end function bound_of
-
-    !> A parameter as scenes call it, blanks behind it
-    pure function key_of(law, number) result(key)
-        integer, intent(in) :: law, number
-        character(len=9) :: key
-        character(len=*), parameter :: keys(3) = [character(len=9) :: "stiffness", "limit", "slope"], &
-                                       of_cubic(3) = [character(len=9) :: "k1", "k2", "k3"], &
-                                       of_power(3) = [character(len=9) :: "d0", "limit", "n"]
-
-        key = keys(number)
-        if (law == law_cubic) key = of_cubic(number)
-        if (law == law_power) key = of_power(number)
-    end function key_of
 
 end module gapbeam_support_laws
