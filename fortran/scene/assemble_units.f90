@@ -283,33 +283,19 @@ contains
         type(assembled_type), intent(in) :: assembled
         !> Becomes allocated
         type(error_type), allocatable, intent(out) :: error
-        integer :: farthest, kind, entry, i, j, k
+        integer :: farthest, kind, entry, k
 
         farthest = ordinary_exponent
         kind = 0
-        do j = 1, size(assembled%pieces)
-            call meet(assembled%pieces(j)%length, 1, j)
-        end do
-        do j = 1, size(assembled%pieces)
-            call meet(assembled%pieces(j)%flexibility, 2, j)
-        end do
-        do j = 1, size(assembled%pieces)
-            call meet(assembled%pieces(j)%shear_flexibility, 3, j)
-        end do
-        do i = 0, size(assembled%beam%links)
-            call meet(assembled%beam%compliance(i), 4, i)
-        end do
-        do k = 1, size(assembled%beam%supports)
-            call meet(assembled%beam%supports(k)%stiffness, 5, assembled%normal(k))
-        end do
-        do k = 1, size(assembled%beam%supports)
-            call meet(abs(assembled%beam%supports(k)%contact), 6, assembled%normal(k))
-        end do
-        if (allocated(assembled%layers)) then
-            do k = 1, size(assembled%layers)
-                call meet(max(assembled%layers(k)%modulus_a, assembled%layers(k)%modulus_b), 7, assembled%layers(k)%foundation)
-            end do
-        end if
+        associate (pieces => assembled%pieces, beam => assembled%beam, layers => assembled%layers)
+            call meet(pieces%length, 1, [(k, k=1, size(pieces))])
+            call meet(pieces%flexibility, 2, [(k, k=1, size(pieces))])
+            call meet(pieces%shear_flexibility, 3, [(k, k=1, size(pieces))])
+            call meet(beam%compliance, 4, [(k, k=0, size(beam%links))])
+            call meet(beam%supports%stiffness, 5, assembled%normal)
+            call meet(abs(beam%supports%contact), 6, assembled%normal)
+            if (allocated(assembled%layers)) call meet(max(layers%modulus_a, layers%modulus_b), 7, layers%foundation)
+        end associate
         associate (supports => assembled%model%supports)
             select case (kind)
             case (1)
@@ -341,15 +327,18 @@ contains
     contains
 
         !> Keep what is farthest from 1 in the engine's units
-        subroutine meet(value, what, number)
-            real(wp), intent(in) :: value
-            integer, intent(in) :: what, number
+        subroutine meet(values, what, numbers)
+            real(wp), intent(in) :: values(:)
+            integer, intent(in) :: what, numbers(:)
+            integer :: i
 
-            if (.not. (value > 0.0_wp .and. value <= huge(value))) return
-            if (abs(exponent(value)) <= farthest) return
-            farthest = abs(exponent(value))
-            kind = what
-            entry = number
+            do i = 1, size(values)
+                if (.not. (values(i) > 0.0_wp .and. values(i) <= huge(1.0_wp))) cycle
+                if (abs(exponent(values(i))) <= farthest) cycle
+                farthest = abs(exponent(values(i)))
+                kind = what
+                entry = numbers(i)
+            end do
         end subroutine meet
 
         !> Name it
