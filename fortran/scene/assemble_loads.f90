@@ -84,62 +84,50 @@ contains
     !> Sums of the loads on all pieces and nodes in the user's units
     pure subroutine sum_loads(assembled)
         type(assembled_type), intent(inout) :: assembled
-        integer :: i, k
+        integer :: i, k, first, last, node
 
         assembled%dead(:) = no_load
         assembled%live(:) = no_load
         assembled%beam%force(:, :) = 0.0_wp
         assembled%beam%couple(:, :) = 0.0_wp
         do i = 1, size(assembled%model%loads)
-            associate (load => assembled%model%loads(i), a => assembled%load_from(i), b => assembled%load_to(i))
+            call find_loaded(assembled, i, first, last, node)
+            associate (load => assembled%model%loads(i), force => assembled%beam%force, couple => assembled%beam%couple)
                 k = merge(1, 2, load%case == gapbeam_dead)
-                if (is_along(load) .or. is_movement(load)) then
-                    cycle
-                else if (is_beside_point(load) .and. k == 1) then
-                    call put_beside(load, a, assembled%dead)
-                else if (is_beside_point(load)) then
-                    call put_beside(load, a, assembled%live)
-                else if (.not. is_stretch(load)) then
-                    call add_at_point(assembled, load, a, k)
+                if (node >= 0 .and. load%kind == gapbeam_force) then
+                    force(k, node) = force(k, node) + load%value
+                else if (node >= 0) then
+                    couple(k, node) = couple(k, node) + load%value
                 else if (k == 1) then
-                    call spread_load(assembled, load, a, b, assembled%dead)
+                    call put_on_pieces(assembled, i, first, last, assembled%dead)
                 else
-                    call spread_load(assembled, load, a, b, assembled%live)
+                    call put_on_pieces(assembled, i, first, last, assembled%live)
                 end if
             end associate
         end do
     end subroutine sum_loads
 
-    !> A force or couple: at a node, or at the right end of the piece before
-    pure subroutine add_at_point(assembled, load, point, case)
-        type(assembled_type), intent(inout) :: assembled
-        type(load_type), intent(in) :: load
-        integer, intent(in) :: point, case
-        integer :: node
+    !> Put a load on the pieces on which it acts
+    pure subroutine put_on_pieces(assembled, k, first, last, piece_loads)
+        !> As for find_loaded
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: k, first, last
+        !> Of all pieces
+        type(piece_load_type), intent(inout) :: piece_loads(:)
 
-        node = assembled%node_of_point(point)
-        if (node >= 0 .and. load%kind == gapbeam_force) then
-            assembled%beam%force(case, node) = assembled%beam%force(case, node) + load%value
-        else if (node >= 0) then
-            assembled%beam%couple(case, node) = assembled%beam%couple(case, node) + load%value
-        else if (case == 1) then
-            call add_to_piece(assembled%dead(point), load)
-        else
-            call add_to_piece(assembled%live(point), load)
-        end if
-    end subroutine add_at_point
-
-    !> A force or couple at the right end of a piece
-    elemental subroutine add_to_piece(piece_load, load)
-        type(piece_load_type), intent(inout) :: piece_load
-        type(load_type), intent(in) :: load
-
-        if (load%kind == gapbeam_force) then
-            piece_load%force = piece_load%force + load%value
-        else
-            piece_load%couple = piece_load%couple + load%value
-        end if
-    end subroutine add_to_piece
+        if (first > last) return
+        associate (load => assembled%model%loads(k))
+            if (is_stretch(load)) then
+                call spread_load(assembled, load, first - 1, last, piece_loads)
+            else if (is_beside_point(load)) then
+                call put_beside(load, assembled%load_from(k), piece_loads)
+            else if (load%kind == gapbeam_force) then
+                piece_loads(first)%force = piece_loads(first)%force + load%value
+            else
+                piece_loads(first)%couple = piece_loads(first)%couple + load%value
+            end if
+        end associate
+    end subroutine put_on_pieces
 
     !> Put a load that acts on the ends of the pieces beside its point on these
     pure subroutine put_beside(load, point, piece_loads)
@@ -194,15 +182,7 @@ contains
         type(piece_load_type), intent(inout) :: on_pieces(:)
 
         call find_loaded(assembled, k, first, last, node)
-        associate (load => assembled%model%loads(k))
-            if (is_stretch(load)) then
-                call spread_load(assembled, load, first - 1, last, on_pieces)
-            else if (is_beside_point(load)) then
-                call put_beside(load, assembled%load_from(k), on_pieces)
-            else if (first == last) then
-                call add_to_piece(on_pieces(first), load)
-            end if
-        end associate
+        call put_on_pieces(assembled, k, first, last, on_pieces)
         call load_in_units(on_pieces(first:last), assembled%units)
     end subroutine put_load
 
