@@ -131,7 +131,6 @@ contains
         real(wp), intent(inout) :: reaction, deflection
         real(wp), intent(out) :: opening
         integer, intent(inout) :: condition
-        type(acting_type) :: acting
         integer :: first, last
 
         associate (axial => assembled%axial, s => assembled%model%supports(k))
@@ -151,12 +150,9 @@ contains
             first = findloc(axial%support, k, 1)
             if (first == 0) return
             last = last_breakpoint(axial%laws, first)
-            acting = acting_piece(axial%laws(first:last), s%side, state%along(first:last))
-            condition = acting%condition
-            opening = 0.0_wp
-            if (condition /= gapbeam_open) return
-            opening = scale(way_to_law(laws_along(assembled, state, first, last), s%side, state%displacement(axial%node(k))), &
-                            axial%units%deflection)
+            call state_of_law(laws_along(assembled, state, first, last), s%side, state%along(first:last), &
+                              state%displacement(axial%node(k)), condition, opening)
+            opening = scale(opening, axial%units%deflection)
         end associate
     end subroutine value_along
 
