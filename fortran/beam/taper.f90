@@ -13,7 +13,7 @@ module gapbeam_taper
     implicit none
     private
     public :: depth_ratio, depth_ratios, softness_at, part_of_piece, mean_softness, find_softness, turn_ends, fields_in_piece
-    public :: intervals_in, points_in, number_of_points, steps_of_taper, share_of_taper
+    public :: steps_of_taper, share_of_taper
 
     !> Left half of the points of Gauss's formula with 28 points from 0 to 1, and their weights: 3e-43 is left of a function whose
     !> pole is as near as it gets. Doubles could do with 16 (6e-25)
@@ -249,35 +249,6 @@ contains
 
     end function fields_in_piece
 
-    !> Intervals of a piece in which all its fields are smooth
-    pure function intervals_in(piece) result(number)
-        type(piece_type), intent(in) :: piece
-        integer :: number
-
-        number = intervals_of(steeper_ratio(piece), 1.0_wp)
-    end function intervals_in
-
-    !> Gauss's points and weights in one of them, as shares of the length
-    pure subroutine points_in(piece, k, points, weights)
-        type(piece_type), intent(in) :: piece
-        !> From 1
-        integer, intent(in) :: k
-        !> Shape (number_of_points)
-        real(wp), intent(out) :: points(:), weights(:)
-        real(wp) :: rest(number_of_points)
-
-        call soften(1.0_wp, steeper_ratio(piece), 0, 1.0_wp, k, points, rest, weights)
-    end subroutine points_in
-
-    !> Ratio of the depth that changes more, that of EI or of GA
-    pure function steeper_ratio(piece) result(ratio)
-        type(piece_type), intent(in) :: piece
-        real(wp) :: ratio, ratios(2)
-
-        ratios(:) = depth_ratios(piece)
-        ratio = ratios(merge(2, 1, abs(log(ratios(2))) > abs(log(ratios(1)))))
-    end function steeper_ratio
-
     !> Into how many steps a piece is cut so that its depths change little on each
     pure function steps_of_taper(piece) result(steps)
         type(piece_type), intent(in) :: piece
@@ -320,7 +291,7 @@ contains
 
     !> Gauss's points of the k-th of these intervals, and weights times the reciprocal of the stiffness there
     pure subroutine soften(flexibility, ratio, power, share, k, t, rest, soft)
-        !> At the left end; depth at the right one; power of the depth, 0: constant
+        !> At the left end; depth at the right one; power of the depth
         real(wp), intent(in) :: flexibility, ratio
         integer, intent(in) :: power
         !> Of the length that is looked at

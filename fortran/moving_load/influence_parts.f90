@@ -12,7 +12,7 @@ module gapbeam_influence_parts
     use gapbeam_train_influence, only: find_influence
     implicit none
     private
-    public :: find_parts, most_parts
+    public :: find_parts
 
     !> Values of a line in a piece at these shares of its length give its cubic: not at the ends, where shear jumps
     real(wp), parameter :: share(4) = [0.125_wp, 0.375_wp, 0.625_wp, 0.875_wp]
@@ -20,14 +20,6 @@ module gapbeam_influence_parts
     real(wp), parameter :: none = 1.0e-11_wp, shortest = 1.0e-9_wp
 
 contains
-
-    !> Most parts that a line on so many pieces has: a cubic has three roots, and a piece is cut where the line belongs to
-    pure function most_parts(pieces) result(number)
-        integer, intent(in) :: pieces
-        integer :: number
-
-        number = 4*(pieces + 1)
-    end function most_parts
 
     !> Parts of the influence line of a quantity, while the same supports act
     subroutine find_parts(assembled, closed, support, piece, distance, quantity, edge, sign_of, number, error)
@@ -40,7 +32,8 @@ contains
         real(wp), intent(in) :: distance
         !> Which value of find_influence, 1 .. bending_count + 2
         integer, intent(in) :: quantity
-        !> Right ends of the parts in the user's units, and the sign of the line on each, 0 where it is zero; shape (most_parts)
+        !> Right ends of the parts in the user's units, and the sign of the line on each, 0 where it is zero; shape 4 for each piece
+        !> and 4 more: a cubic has three roots, and a piece is cut where the line belongs to
         real(wp), intent(out) :: edge(:)
         integer, intent(out) :: sign_of(:)
         !> How many there are

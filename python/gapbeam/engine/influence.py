@@ -43,7 +43,7 @@ def influence_parts(
     EngineError
         The state is not unique.
     """
-    most = 4 * (len(beam.places.pieces) + 1)  # as most_parts in fortran/moving_load/influence_parts
+    most = 4 * (len(beam.places.pieces) + 1)  # as find_parts in fortran/moving_load/influence_parts
     edges, signs, number, status, message = _engine.gbtprt(
         beam.handle, most, np.append(closed, 0).astype(np.int32), np.append(chosen, False).astype(np.int32),
         place[0], place[1], LINES.index(quantity) + 1,

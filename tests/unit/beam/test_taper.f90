@@ -4,8 +4,7 @@ program test_taper
     use gapbeam_kinds, only: wp, qp
     use gapbeam_element, only: field_type
     use gapbeam_piece, only: piece_type, piece_load_type, no_load
-    use gapbeam_taper, only: intervals_in, points_in, number_of_points, mean_softness, find_softness, turn_ends, &
-        fields_in_piece, softness_at
+    use gapbeam_taper, only: mean_softness, find_softness, turn_ends, fields_in_piece, softness_at
     use gapbeam_taper_quad, only: mean_finely => mean_softness
     use gapbeam_taper_extremes, only: find_turning_places, most_places
     use gapbeam_quantities, only: of_deflection, of_rotation, of_curvature
@@ -14,7 +13,7 @@ program test_taper
 
     call means()
     call link_of_one_taper()
-    call intervals_of_the_steeper()
+    call means_over_intervals()
     call fields_inside()
     call places_of_extremes()
     call finish(status)
@@ -79,24 +78,11 @@ contains
         call check_close(slip, 0.5_wp - log(3.0_wp)/2, "int V/GA under a uniform load", relative=1e-14_wp)
     end subroutine link_of_one_taper
 
-    !> EI constant, GA from 1 to 100: seven intervals, whose points integrate 1/(1 + 99 t) to ln(100)/99
-    subroutine intervals_of_the_steeper()
-        type(piece_type) :: piece
-        real(wp) :: points(number_of_points), weights(number_of_points), whole, area
-        integer :: k
-
-        piece = piece_type(1.0_wp, 1.0_wp, 1.0_wp, 0.0_wp, 1.0_wp, 0.01_wp, 0, 1)
-        call check(intervals_in(piece) == 7, "in each the depth at most doubles")
-        whole = 0.0_wp
-        area = 0.0_wp
-        do k = 1, intervals_in(piece)
-            call points_in(piece, k, points, weights)
-            whole = whole + sum(weights)
-            area = area + sum(weights/(1 + 99*points))
-        end do
-        call check_close(whole, 1.0_wp, "weights have the sum 1")
-        call check_close(area, log(100.0_wp)/99, "1/(1 + 99 t)", relative=1e-14_wp)
-    end subroutine intervals_of_the_steeper
+    !> A depth from 1 to 100: int 1/(1 + 99 t) = ln(100)/99, int 1/(1 + 99 t)**2 = 1/100
+    subroutine means_over_intervals()
+        call check_close(mean_softness(1.0_wp, 0.01_wp, 1, 1.0_wp), log(100.0_wp)/99, "1/(1 + 99 t)", relative=1e-14_wp)
+        call check_close(mean_softness(1.0_wp, 0.0001_wp, 2, 1.0_wp), 0.01_wp, "1/(1 + 99 t)**2", relative=1e-14_wp)
+    end subroutine means_over_intervals
 
     !> A cantilever that is fixed at its left end: EI = 2 - x, force 1 at the tip; its tip moves by ln 2 - 1/2
     subroutine fields_inside()

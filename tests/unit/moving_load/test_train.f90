@@ -18,7 +18,7 @@ program test_train
     use gapbeam_train_link_bounds, only: view_type, link_bounds_type, new_view, enter_stretch, bound_link
     use gapbeam_train_curves, only: find_curves
     use gapbeam_train_influence, only: find_influence
-    use gapbeam_influence_parts, only: find_parts, most_parts
+    use gapbeam_influence_parts, only: find_parts
     use gapbeam_pieces, only: gapbeam_opens, gapbeam_closes
     implicit none
     integer :: status
@@ -71,8 +71,8 @@ contains
         type(train_event_type), allocatable :: events(:)
         type(error_type), allocatable :: error
         real(wp) :: value(2, bending_count, 1), position(2, bending_count, 1), line(bending_count + 2, 2)
-        real(wp) :: edge(most_parts(2))
-        integer :: sign_of(most_parts(2)), number
+        real(wp) :: edge(12)
+        integer :: sign_of(12), number
 
         call make([1.0_wp, 1.0_wp], [0.0_wp, 1.0_wp, 2.0_wp], 1.0_wp, lowered, track)
         train = axles([0.0_wp], [8.0_wp])
