@@ -23,10 +23,15 @@ class _GroundLaw(Table, forbid_unknown_fields=True, kw_only=True, gc=False, tag_
     """A law by its parameters, each a number, (at from, at to) or points (x, value), linear in between."""
 
     code: ClassVar[int]
+    like: ClassVar[type[PlasticLaw | HardeningLaw] | None] = None
+    """The law of supports with the same parameters that is the same polyline."""
 
     def points(self) -> list[tuple[float, float]] | None:
-        """Give the polyline (displacement past the gap, force per length); None where the law is no polyline."""
-        return None
+        """Give the polyline (displacement past the gap, force per length); None where it is none, or one that varies or is 0."""
+        given = dict(zip(self.__struct_fields__, self.values(), strict=True))
+        if self.like is None or any(isinstance(value, tuple) or is_table(value) for value in given.values()):
+            return None
+        return self.like(**given).points() if given["stiffness"] > 0.0 and given["limit"] > 0.0 else None
 
     def parameters(self) -> list[tuple[float, float]]:
         """Give the parameters at both ends in the engine's order."""
@@ -60,11 +65,7 @@ class _Limited(_GroundLaw):
 class PlasticGround(_Limited, tag="plastic"):
     """Elastic up to a force that stays."""
 
-    code = 1
-
-    def points(self) -> list[tuple[float, float]] | None:
-        """Give the polyline where the parameters are numbers above 0."""
-        return _points(PlasticLaw, stiffness=self.stiffness, limit=self.limit)
+    code, like = 1, PlasticLaw
 
 
 class HardeningGround(_Limited, tag="hardening"):
@@ -77,12 +78,8 @@ class HardeningGround(_Limited, tag="hardening"):
         in between.
     """
 
-    code = 2
+    code, like = 2, HardeningLaw
     slope: Along
-
-    def points(self) -> list[tuple[float, float]] | None:
-        """Give the polyline where the parameters are numbers above 0."""
-        return _points(HardeningLaw, stiffness=self.stiffness, limit=self.limit, slope=self.slope)
 
 
 class HyperbolicGround(_Limited, tag="hyperbolic"):
@@ -147,15 +144,6 @@ class PowerGround(_GroundLaw, tag="power"):
         else:
             only = tuple(value * scale for value in at_both_ends(self.limit))
         return tuple(only if k == self.n else 0.0 for k in (1.0, 2.0, 3.0))
-
-
-def _points(kind: type[PlasticLaw | HardeningLaw], **parameters: Along) -> list[tuple[float, float]] | None:
-    """Give the polyline of a law of supports with these parameters; None unless all are numbers, those that matter above 0."""
-    if any(isinstance(value, tuple) or is_table(value) for value in parameters.values()):
-        return None
-    if not (parameters["stiffness"] > 0.0 and parameters["limit"] > 0.0):
-        return None
-    return kind(**parameters).points()
 
 
 class LawAt(Table, forbid_unknown_fields=True, kw_only=True, gc=False):

@@ -90,10 +90,6 @@ class CaseExtremes(Extremes):
         """Count the fields."""
         return len(self._cases._beam.fields)
 
-    def __repr__(self) -> str:
-        """Show a line for each value."""
-        return "\n".join(f"{kind} {one!r}" for row in self.values() for kind, one in row.items())
-
 
 class CaseStates(Labelled):
     """States by number and name of the support; calling it gives what the method gave that this was."""

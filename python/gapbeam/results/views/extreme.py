@@ -202,4 +202,4 @@ class Extremes(Mapping[str, dict[str, Extreme]]):
 
     def __repr__(self) -> str:
         """Show a line for each value."""
-        return "\n".join(f"{kind} {one!r}" for row in self._all.values() for kind, one in row.items())
+        return "\n".join(f"{kind} {one!r}" for row in self.values() for kind, one in row.items())
