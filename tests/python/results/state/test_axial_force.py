@@ -63,6 +63,15 @@ def test_shear_and_transverse_force():
     assert result.extremes["transverse"]["max"].value == 0.5
 
 
+def test_transverse_force_is_greatest_where_ground_and_load_balance():
+    half = {**uniform(1.0), "from": 0.0, "to": 2.5}
+    result = gapbeam.solve(beam(0.5, [], [half], 5.0, foundation=[{"k": 40.0}]))
+    greatest = result.extremes["transverse"]["max"]
+    assert 0.0 < greatest.x < 2.5
+    assert 40.0 * result.at(greatest.x).deflection == pytest.approx(1.0, rel=1e-12)
+    assert greatest.value == pytest.approx(result.at(np.linspace(0.0, 5.0, 2001)).transverse.max(), rel=1e-5)
+
+
 def test_shear_flexibility_by_engesser():
     # A column of N0 = pi**2 EI/L**2 gives way at N0/(1 + N0/GA)
     columns = beam(-1.0, loads=[uniform(1.0)], analysis={"buckling": 2})
