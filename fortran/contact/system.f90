@@ -309,6 +309,8 @@ contains
                     it_does = abs(p%c) < short_zone**2*abs(link%gaa)
                 case (w_known)
                     it_does = abs(p%a) < short_zone**2*abs(link%faa)
+                case default
+                    continue
                 end select
             end associate
             if (it_does) return

@@ -287,15 +287,19 @@ contains
 
         farthest = ordinary_exponent
         kind = 0
-        associate (pieces => assembled%pieces, beam => assembled%beam, layers => assembled%layers)
+        associate (pieces => assembled%pieces, beam => assembled%beam)
             call meet(pieces%length, 1, [(k, k=1, size(pieces))])
             call meet(pieces%flexibility, 2, [(k, k=1, size(pieces))])
             call meet(pieces%shear_flexibility, 3, [(k, k=1, size(pieces))])
             call meet(beam%compliance, 4, [(k, k=0, size(beam%links))])
             call meet(beam%supports%stiffness, 5, assembled%normal)
             call meet(abs(beam%supports%contact), 6, assembled%normal)
-            if (allocated(assembled%layers)) call meet(max(layers%modulus_a, layers%modulus_b), 7, layers%foundation)
         end associate
+        if (allocated(assembled%layers)) then
+            associate (layers => assembled%layers)
+                call meet(max(layers%modulus_a, layers%modulus_b), 7, layers%foundation)
+            end associate
+        end if
         associate (supports => assembled%model%supports)
             select case (kind)
             case (1)
