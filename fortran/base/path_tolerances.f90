@@ -53,7 +53,8 @@ module gapbeam_path_tolerances
     !> Share of the greatest reaction below which that of a support that rubs is rounding, as where it opens: what it leaves of
     !> friction would be held by nothing. Read by continuation/axial_friction
     real(wp), parameter :: no_friction = 2.0_wp**(-46)
-    !> The same of differences of reactions: friction of supports that carry as much is the same. Read by continuation/axial_friction
+    !> The same of differences of reactions: friction of supports that carry as much is the same. Read by
+    !> continuation/axial_friction
     real(wp), parameter :: same_reaction = 2.0_wp**(-46)
     !> Share of the loads below which what pushes a node over ground along the beam is rounding. Read by contact/ground_along_slip
     real(wp), parameter :: no_push = 2.0_wp**(-46)
