@@ -293,14 +293,14 @@ contains
         if (local%current) local%steps = local%steps + 1
     end subroutine take_direction
 
-    !> Let supports that keep a set unload until all others go on. Where no force falls there is one way, and what is right for
-    !> every support is it
+    !> Let supports that keep a set unload until all others go on; one that does so no more as others unload goes on as before.
+    !> Where no force falls there is one way, and what is right for every support is it
     subroutine turn_back(local, closed, factor)
         type(local_type), intent(inout) :: local
         logical, intent(inout) :: closed(:)
         real(wp), intent(in) :: factor
         type(response_type) :: response
-        integer, allocatable :: tops(:), changed(:)
+        integer, allocatable :: tops(:), changed(:), again(:)
         integer :: k, turn, i, j, ends(2)
         real(wp) :: at, with
 
@@ -313,11 +313,18 @@ contains
                     ! What does not move stays on its piece: where nothing reaches a support, updates leave rates of 1e-80
                     if (rises(response) .or. abs(response%v1) < no_rate*abs(response%v0)) cycle
                     if (.not. falls(response) .or. turn == most_turns) return
+                    if (any(local%turned == k)) return
                     tops = [tops, k]
                 end do
+                again = all_up_to(stretch%queue, stretch%direction*factor)
                 stretch%turns_back = size(tops) > 0
-                if (.not. stretch%turns_back) return
+                if (size(tops) + size(again) == 0 .or. turn == most_turns) return
                 changed = [integer ::]
+                do i = 1, size(again)
+                    call find_unit(laws, closed, again(i), ends(1), ends(2))
+                    if (.not. any(local%turned >= ends(1) .and. local%turned <= ends(2))) return
+                    if (all(changed /= again(i))) changed = [changed, (j, j=ends(1), ends(2))]
+                end do
                 do i = 1, size(tops)
                     associate (dead => stretch%dead, live => stretch%live, top => tops(i), node => laws(tops(i))%node, &
                                first => tops(i) - laws(tops(i))%breakpoint + 1)
