@@ -146,7 +146,7 @@ contains
         walk%to = to
         beam%supports = walk%laws
         if (history%number == 0) then
-            call find_beginning(beam, to, walk%closed, history%solves, beginning, error)
+            call find_beginning(beam, in_doubles, to, walk%closed, history%solves, beginning, error)
             if (allocated(error)) return
             if (beginning%status /= gapbeam_solved) then
                 history%limits = [limit_type(mechanism, 0, 0.0_wp, 0)]

@@ -4,7 +4,13 @@ module gapbeam_history_start
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_not_converged
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_link, only: no_load
+    use gapbeam_path_tolerances, only: first_share_of_way
+    use gapbeam_model, only: coarse_beam_type => beam_type
+    use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
+    use gapbeam_search, only: rule_block
+    use gapbeam_contact_state, only: find_contact_state, coarse_outcome_type => outcome_type, is_solved
     use gapbeam_affine_response, only: drop_live
+    use gapbeam_local_step, only: rounded
     use gapbeam_model_quad, only: beam_type
     use gapbeam_contact_state_quad, only: outcome_type
     use gapbeam_linear_region, only: find_region, region_type
@@ -17,8 +23,10 @@ module gapbeam_history_start
 contains
 
     !> The scheme at the first factor above 0
-    subroutine find_beginning(beam, to, closed, solves, outcome, error)
+    subroutine find_beginning(beam, in_doubles, to, closed, solves, outcome, error)
+        !> The beam, and the same in double precision but for its laws
         type(beam_type), intent(in) :: beam
+        type(coarse_beam_type), intent(in) :: in_doubles
         real(qp), intent(in) :: to
         !> Start in, scheme out
         logical, intent(inout) :: closed(:)
@@ -32,6 +40,7 @@ contains
 
         mirrored = beam
         if (to < 0.0_qp) call reverse_live(mirrored)
+        if (.not. allocated(beam%ground)) call search_in_doubles(beam, in_doubles, to, closed, solves)
         call find_region(mirrored, 0.0_qp, abs(to), closed, region, outcome, error)
         solves = solves + region%solves
         if (allocated(error)) then
@@ -42,6 +51,33 @@ contains
             closed(:) = region%closed
         end if
     end subroutine find_beginning
+
+    !> What doubles find is most of the way, where no force falls and the beam is held: there is one scheme then
+    subroutine search_in_doubles(beam, in_doubles, to, closed, solves)
+        !> As for find_beginning
+        type(beam_type), intent(in) :: beam
+        type(coarse_beam_type), intent(in) :: in_doubles
+        real(qp), intent(in) :: to
+        logical, intent(inout) :: closed(:)
+        integer, intent(inout) :: solves
+        type(coarse_beam_type) :: rough
+        type(workspace_type) :: work
+        type(coarse_outcome_type) :: outcome
+        type(error_type), allocatable :: error
+        logical :: found(size(closed))
+        real(wp) :: factor
+
+        if (any(beam%supports%breakpoint > 0 .and. min(beam%supports%before, beam%supports%stiffness) < 0.0_qp)) return
+        rough = in_doubles
+        rough%supports = rounded(beam%supports, in_doubles%supports)
+        factor = real(first_share_of_way*to, wp)
+        found(:) = closed
+        call new_workspace(rough, work)
+        call set_loads(rough, factor, work)
+        call find_contact_state(rough, factor, rule_block, found, work, outcome, error)
+        solves = solves + work%solves
+        if (is_solved(outcome, error) .and. .not. outcome%indifferent) closed(:) = found
+    end subroutine search_in_doubles
 
     !> Settlements and lacks of fit, in the engine's units
     pure subroutine find_movements(assembled, movement)
