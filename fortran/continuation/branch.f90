@@ -92,8 +92,7 @@ contains
         if (allocated(branch%touched)) deallocate (branch%touched)
         call step_locally(branch, target, leg, segment, outcome, done)
         if (done) return
-        segment%from = branch%factor
-        segment%to = branch%factor
+        segment = segment_type(branch%factor, branch%factor)
         if (direction == turn) then
             call turn_on(branch, at_hand)
             outcome = never_ends
@@ -112,6 +111,13 @@ contains
             branch%factor = next
             segment%to = next
             call note_place(branch)
+            if (branch%local%current .and. abs(next - segment%from) > 0.0_wp .and. count(at_hand) == 1) then
+                branch%local%stretch%in_doubt = .false.
+                call pass_locally(branch, [findloc(at_hand, .true., 1)], real(next, dp), leg, done)
+                outcome = goes_on
+                if (done) return
+            end if
+            branch%local%current = .false.
         end if
         call go_on(branch, leg, turn, at_hand, outcome, error)
     end subroutine step_branch
@@ -154,7 +160,8 @@ contains
                 segment%to = next
                 return
             end if
-            local%current = .false.
+            ! Where what comes next is doubtful, its factor may be all that is
+            local%current = found == doubtful .and. .not. local%may_fall
             if (local%steps == 0) return
             call solve_responses(branch%beam, way%closed, branch%responses)
             if (branch%responses%regular) call note_place(branch)
@@ -188,11 +195,9 @@ contains
                 call take_direction(local, closed, factor, way%direction, breaks)
                 done = local%current
             end if
-            if (.not. done) then
-                call switch(local%changed, closed)
-                return
-            end if
+            if (.not. done) call switch(local%changed, closed)
         end associate
+        if (.not. done) return
         call take_laws(branch, numbers(1), breaks)
         if (allocated(branch%outgoing)) deallocate (branch%outgoing)
         allocate (branch%outgoing(merge(2, 1, breaks)))
