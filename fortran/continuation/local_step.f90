@@ -318,7 +318,8 @@ contains
                 end do
                 again = all_up_to(stretch%queue, stretch%direction*factor)
                 stretch%turns_back = size(tops) > 0
-                if (size(tops) + size(again) == 0 .or. turn == most_turns) return
+                if (size(tops) + size(again) == 0) exit
+                if (turn == most_turns) return
                 changed = [integer ::]
                 do i = 1, size(again)
                     call find_unit(laws, closed, again(i), ends(1), ends(2))
@@ -341,6 +342,11 @@ contains
                 local%changed = [local%changed, changed]
                 call change_supports(local%beam, changed, stretch%direction*factor, closed, stretch)
                 if (.not. stretch%current) return
+            end do
+            ! Where one that hardly moves has turned back, it comes to again: doubles do not know that place well enough
+            do i = 1, size(local%turned)
+                response = response_in(local%beam, closed, local%turned(i), stretch)
+                if (width_at(response, factor) > share_off*abs(factor*response%v1)) stretch%in_doubt = .true.
             end do
         end associate
     end subroutine turn_back

@@ -248,6 +248,24 @@ def test_what_does_not_move_does_not_unload():
     assert still[0].state[3] == "branch 2"
 
 
+@pytest.mark.parametrize("seed", [105, 171, 225, 370])
+def test_one_that_hardly_moves_turns_back_and_yields_again_at_its_factor(seed):
+    """Far from what makes it turn; in units in which all is rounded otherwise the factor was another one, by up to 3e-4."""
+
+    def row(unit):
+        rng, count, supports = random.Random(seed), 22, [at(0)]
+        for i in range(1, count + 1):
+            d, slope, harder = rng.randint(1, 4) / 1024, rng.randint(500, 2000) * unit, rng.randint(100, 400) * unit
+            supports.append(link(i, [[d, slope * d], [1.0 + d, slope * d + harder]], side="below"))
+        dead = [{"type": "uniform", "q": 0.5 * unit, "case": "dead"}, {**force(19.0, 8.0 * unit), "case": "dead"}]
+        loads = dead + [force(x, rng.randint(-4, 12) * unit) for x in (1.5, 2.5, 4.0)]
+        return solve([1.0] * count, supports, loads, [1.0], 8.0 * unit).events
+
+    one, other = row(1.0), row(3.0)
+    assert [(event.support, event.event) for event in one] == [(event.support, event.event) for event in other]
+    assert [event.factor for event in one] == pytest.approx([event.factor for event in other], rel=1e-12)
+
+
 def test_solves_do_not_grow_with_the_links():
     """Two for the beginning, four where a leg begins: events between take local updates, however many links there are."""
     for count in (40, 120):
