@@ -231,7 +231,8 @@ contains
         end if
     end subroutine queue_support
 
-    !> Is a breakpoint the last one passed of a support that keeps a set, so that it unloads from where it is
+    !> Is a breakpoint the last one passed of a support that keeps a set, so that it unloads from where it is; of those that have
+    !> become one where it turned back the first
     pure function unloads_from_here(beam, closed, k, stretch) result(it_does)
         !> The beam and its scheme, and the number of the breakpoint
         type(beam_type), intent(in) :: beam
@@ -239,13 +240,13 @@ contains
         integer, intent(in) :: k
         type(stretch_type), intent(in) :: stretch
         logical :: it_does
-        integer :: middle
+        integer :: middle, last
 
         it_does = allocated(stretch%keeps_set)
         if (it_does) it_does = stretch%keeps_set(k)
         if (.not. it_does) return
         associate (s => beam%supports, number => beam%supports(k)%breakpoint)
-            it_does = closed(k) .and. number > 1
+            it_does = closed(k) .and. number > 1 .and. .not. s(k)%passed
             if (holds_both_ways(s(k - number + 1))) then
                 middle = (last_breakpoint(s, k) - k + number)/2
                 if (number <= middle) then
@@ -256,7 +257,12 @@ contains
                 end if
                 it_does = closed(k)
             end if
-            if (it_does .and. s(k)%more) it_does = .not. closed(k + 1)
+            last = k
+            do while (s(last)%more)
+                if (.not. s(last + 1)%passed) exit
+                last = last + 1
+            end do
+            if (it_does .and. s(last)%more) it_does = .not. closed(last + 1)
         end associate
     end function unloads_from_here
 

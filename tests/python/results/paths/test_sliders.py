@@ -277,6 +277,16 @@ def test_solves_do_not_grow_with_the_links():
         assert result.solves == 2 + 4 * 4
 
 
+def test_solves_where_breakpoints_have_become_one():
+    """Events took solves of the whole beam once a law had turned back beyond its second breakpoint."""
+    rng, law = random.Random(1), [[0.001, 3.0], [0.002, 5.0], [0.004, 7.0], [0.008, 9.0], [1.0, 40.0]]
+    supports = [link(i, law, side="below", gap=rng.uniform(0.0, 0.002)) for i in range(80)]
+    dead = {"type": "uniform", "q": 0.5, "case": "dead"}
+    loads = [dead, *(force(rng.uniform(0.0, 79.0), 15.0) for _ in range(8))]
+    result = solve([1.0] * 79, supports, loads, [1.0, 0.0, 1.2], 100.0)
+    assert result.solves < len(result.events) / 3
+
+
 def test_a_brake_that_does_not_yield_comes_to_rest():
     """Rounding of the way back was an axial force of 1e-34, and pictures drew it."""
     result = gapbeam.solve({
