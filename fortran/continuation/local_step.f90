@@ -31,9 +31,6 @@ module gapbeam_local_step
     !> Rounding errors within which factors are not told apart
     real(wp), parameter :: slack = 64*epsilon(1.0_wp)
 
-    !> Rate beside the way to a breakpoint, or the force, below which it is none
-    real(wp), parameter :: no_rate = epsilon(1.0_wp)**4
-
     !> Rounds in which supports turn back in turn where others yield
     integer, parameter :: most_turns = 8
 
@@ -310,8 +307,7 @@ contains
                 do k = 1, size(closed)
                     if (.not. unloads_from_here(local%beam, closed, k, stretch)) cycle
                     response = response_in(local%beam, closed, k, stretch)
-                    ! What does not move stays on its piece: where nothing reaches a support, updates leave rates of 1e-80
-                    if (rises(response) .or. abs(response%v1) < no_rate*abs(response%v0)) cycle
+                    if (rises(response)) cycle
                     if (.not. falls(response) .or. turn == most_turns) return
                     if (any(local%turned == k)) return
                     tops = [tops, k]
@@ -343,7 +339,8 @@ contains
                 call change_supports(local%beam, changed, stretch%direction*factor, closed, stretch)
                 if (.not. stretch%current) return
             end do
-            ! Where one that hardly moves has turned back, it comes to again: doubles do not know that place well enough
+            ! Where one that hardly moves has turned back, it comes to again: doubles do not know that place well enough. What does
+            ! not move has not turned at all: where nothing reaches a support, updates leave rates of 1e-80
             do i = 1, size(local%turned)
                 response = response_in(local%beam, closed, local%turned(i), stretch)
                 if (width_at(response, factor) > share_off*abs(factor*response%v1)) stretch%in_doubt = .true.
