@@ -36,7 +36,7 @@ module gapbeam_path_tolerances
     ! Paths
     !
     !> The first factor at which a linear region is looked for is above the given one by this share of the way; tuned. Read by
-    !> continuation/linear_region and history_start
+    !> continuation/linear_region, continuation/history_start
     real(qp), parameter :: first_share_of_way = 2.0_qp**(-40)
     !> None nearer than this is: rounding of the factor. Read by continuation/linear_region
     real(qp), parameter :: last_share_of_way = 2.0_qp**(-48)
