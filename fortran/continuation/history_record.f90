@@ -233,7 +233,8 @@ contains
             do j = 1, size(history%limits)
                 associate (limit => history%limits(j))
                     if (limit%landing > 0 .or. s%direction /= way .or. s%leg /= limit%leg) cycle
-                    if (way*(s%to - limit%factor) < 0.0_wp) cycle
+                    ! It may become stable beyond that factor only: then there is none there
+                    if (way*(s%to - limit%factor) < 0.0_wp .or. way*(s%from - limit%factor) > 0.0_wp) cycle
                     limit%landing = history%number
                     if (history%at_limit /= at_limit_jump) cycle
                     s%from = limit%factor
