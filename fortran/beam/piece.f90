@@ -23,6 +23,8 @@ module gapbeam_piece
         real(wp) :: compression = 0.0_wp
         !> Mass per length, for vibrations
         real(wp) :: mass = 0.0_wp
+        !> Tension for which it is cut where that changes along it, likewise
+        real(wp) :: pull = 0.0_wp
     end type piece_type
 
     !> Loads on a piece and on the point at its right end

@@ -31,7 +31,8 @@ contains
         modulus = 0.0_wp
         if (present(stiffer)) modulus = stiffer
         tapers = is_tapered(piece)
-        varies = tapers .or. modulus > 0.0_wp .or. piece%compression > 0.0_wp .or. abs(piece%tension_change) > 0.0_wp
+        varies = tapers .or. modulus > 0.0_wp .or. max(piece%compression, piece%pull) > 0.0_wp &
+            .or. abs(piece%tension_change) > 0.0_wp
         do k = 1, size(layers)
             associate (layer => layers(k))
                 if (.not. has_points(layer)) then
@@ -52,7 +53,10 @@ contains
         if (.not. varies) return
         pressed = piece
         if (piece%compression > 0.0_wp) then
-            pressed%tension = sign(max(piece%compression, piece%tension + max(0.0_wp, piece%tension_change)), -1.0_wp)
+            pressed%tension = sign(max(piece%compression, piece%pull, piece%tension + max(0.0_wp, piece%tension_change)), -1.0_wp)
+            pressed%tension_change = 0.0_wp
+        else if (piece%pull > 0.0_wp) then
+            pressed%tension = piece%pull
             pressed%tension_change = 0.0_wp
         end if
         steps = max(1, ceiling(decays_between(pressed, 0.0_wp, piece%length, modulus)))

@@ -2,8 +2,8 @@
 !> of its dead loads.
 module gapbeam_moved_ground
     use gapbeam_kinds, only: wp
-    use gapbeam_piece, only: combine_loads, no_load
-    use gapbeam_ground, only: ground_type
+    use gapbeam_piece, only: piece_type, combine_loads, no_load
+    use gapbeam_ground, only: ground_type, moving_type
     implicit none
     private
     public :: move_ground, under_share, under_loads
@@ -25,52 +25,50 @@ contains
         end associate
         if (.not. allocated(ground%moving%tension)) return
         associate (begins => ground%moving%begins)
-            ground%pieces%tension = tension_at(last_begun(begins, factor), factor)
-            ground%pieces%compression = max(0.0_wp, -tension_at(last_begun(begins, greatest_near(factor)), greatest_near(factor)))
+            ground%pieces%tension = tension_at(ground%moving, factor)
+            ground%pieces%compression = max(0.0_wp, -tension_at(ground%moving, greatest_near(factor)))
             do k = 1, size(begins)
-                ground%pieces%compression = max(ground%pieces%compression, -tension_at(k, begins(k)))
+                ground%pieces%compression = max(ground%pieces%compression, -tension_at(ground%moving, begins(k)))
             end do
         end associate
         if (.not. allocated(ground%moving%tension_change)) return
         associate (begins => ground%moving%begins, more_at_zero => ground%moving%tension_change(1, :), &
                    more => ground%moving%tension_change(2, :))
             ground%pieces%tension_change = more_at_zero + factor*more
-            ground%pieces%compression = max(ground%pieces%compression, -(tension_at(last_begun(begins, greatest_near(factor)), &
-                                                                                    greatest_near(factor)) &
-                                                                         + more_at_zero + greatest_near(factor)*more))
+            ground%pieces%pull = 0.0_wp
+            call cut_for(tension_at(ground%moving, greatest_near(factor)), &
+                         more_at_zero + greatest_near(factor)*more, ground%pieces)
             do k = 1, size(begins)
-                ground%pieces%compression = max(ground%pieces%compression, -(tension_at(k, begins(k)) + more_at_zero &
-                                                                             + begins(k)*more))
+                call cut_for(tension_at(ground%moving, begins(k)), more_at_zero + begins(k)*more, ground%pieces)
             end do
         end associate
-
-    contains
-
-        !> Tensions at a load factor on a stretch of their way
-        pure function tension_at(stretch, factor) result(tension)
-            integer, intent(in) :: stretch
-            real(wp), intent(in) :: factor
-            real(wp) :: tension(size(ground%pieces))
-
-            associate (moving => ground%moving)
-                tension(:) = moving%tension(1, :, stretch) + (factor - moving%begins(stretch))*moving%tension(2, :, stretch)
-            end associate
-        end function tension_at
-
     end subroutine move_ground
 
-    !> The last stretch that begins before a load factor, or at it
-    pure function last_begun(begins, factor) result(stretch)
-        !> From 0 on, all of one sign
-        real(wp), intent(in) :: begins(:), factor
-        integer :: stretch, k
+    !> Tensions at a load factor
+    pure function tension_at(moving, factor) result(tension)
+        type(moving_type), intent(in) :: moving
+        real(wp), intent(in) :: factor
+        real(wp) :: tension(size(moving%tension, 2))
+        integer :: k, last
 
-        stretch = 1
-        do k = 2, size(begins)
-            if (abs(begins(k)) > abs(factor)) exit
-            stretch = k
+        ! Load factors from 0 on are all of one sign
+        last = 1
+        do k = 2, size(moving%begins)
+            if (abs(moving%begins(k)) > abs(factor)) exit
+            last = k
         end do
-    end function last_begun
+        tension(:) = moving%tension(1, :, last) + (factor - moving%begins(last))*moving%tension(2, :, last)
+    end function tension_at
+
+    !> Let pieces be cut for axial forces that change along them
+    elemental subroutine cut_for(tension, change, piece)
+        !> At the left end, and by how much it is greater at the right one
+        real(wp), intent(in) :: tension, change
+        type(piece_type), intent(inout) :: piece
+
+        piece%compression = max(piece%compression, -(tension + change))
+        if (abs(change) > 0.0_wp) piece%pull = max(piece%pull, tension, tension + change)
+    end subroutine cut_for
 
     !> Load factor for which a beam is cut at those near another one: the next power of 4, so that zones that are carried from one
     !> to another stay short enough

@@ -125,7 +125,8 @@ contains
                                fine_reciprocal(piece%shear_flexibility), fine_reciprocal(piece%hinge), &
                                fine_reciprocal(piece%flexibility_to), fine_reciprocal(piece%shear_flexibility_to), piece%power, &
                                piece%shear_power, real(piece%tension, qp), real(piece%slope_stiffness, qp), &
-                               real(piece%tension_change, qp), real(piece%compression, qp), real(piece%mass, qp))
+                               real(piece%tension_change, qp), real(piece%compression, qp), real(piece%mass, qp), &
+                               real(piece%pull, qp))
     end function fine_piece
 
     !> A reciprocal in quadruple precision: of the stiffness that the user gave, which two roundings give back, mostly exactly

@@ -27,7 +27,7 @@ module gapbeam_stretch_audit
     !> Samples of stretches in which ground acts by curves: their series are taken from end to end, not integrated by points
     integer, parameter :: samples = 3
 
-    !> Rate at which a tapered stretch is integrated at least
+    !> Rate at which a stretch is integrated at least that tapers, or along which the axial force changes
     real(wp), parameter :: least_rate = 4.0_wp
 
     !> Forces on a stretch, ground and loads, in sum
@@ -160,8 +160,11 @@ contains
             integer :: p, k, t, number
 
             call rates_of(solution, i, rate, fade)
-            ! On a step of a taper the depth would vanish four steps away: ten points leave less than rounding of that
-            if (is_tapered(ground%pieces(solution%piece(i)))) rate = max(rate, least_rate)
+            ! On a step of a taper the depth would vanish four steps away: ten points leave less than rounding of that, and of what
+            ! an axial force that changes makes
+            if (is_tapered(ground%pieces(solution%piece(i))) .or. abs(solution%stretches(i)%tension_change) > 0.0_wp) then
+                rate = max(rate, least_rate)
+            end if
             call cut_into_panels(rate, fade, panels)
             bent = 0.0_wp
             slid = 0.0_wp

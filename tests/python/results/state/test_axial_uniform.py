@@ -281,3 +281,18 @@ def test_beside_tapers_of_EA_it_is_refused():
     with pytest.raises(gapbeam.SceneError, match=r"loads\[0\]\.from: a load along the beam where EA changes"):
         gapbeam.solve(tapered)
     assert gapbeam.solve(gapbeam.replace(tapered, "loads", [gapbeam.AxialUniformLoad(from_=3.0, q=1.0)])).status == "solved"
+
+
+@pytest.mark.parametrize("F", [100.0, 240.0, 400.0])
+def test_a_beam_that_a_load_along_it_pulls_is_cut_for_the_tension_that_it_comes_under(F):
+    """From event to event as by steps: stretches carried from small loads on are short enough for all of the tension."""
+    supports = [{"node": 0}, {"node": 1, "side": "below", "gap": 0.02}, {"node": 2}, {"node": 0, "direction": "axial"}]
+    loads = [
+        {"type": "uniform", "q": 3.0, "case": "dead"}, {"type": "axial", "node": 2, "F": F},
+        {"type": "axial_uniform", "q": 40.0, "from": 0.0, "to": 5.0},
+    ]  # fmt: skip
+    made = {"beam": {"spans": [5.0, 5.0], "EI": 100.0, "EA": 8192.0}, "supports": supports, "loads": loads}
+    by_events, by_steps = (gapbeam.solve(made | {"analysis": analysis}) for analysis in ({"follow": "events"}, {"steps": 8}))
+    for step in by_steps.steps:
+        found = by_events.state(step.factor)
+        assert found.reaction == pytest.approx(step.reaction, rel=1e-12, abs=1e-12)
