@@ -12,7 +12,7 @@ from __future__ import annotations
 import mmap
 import os
 import threading
-from _thread import LockType, allocate_lock, start_new_thread
+from _thread import allocate_lock, start_new_thread
 from collections.abc import Callable, Iterator
 from functools import partial
 from queue import SimpleQueue
@@ -41,6 +41,23 @@ PART = 200_000
 """Numbers that Python turns into objects or text in some tenths of a second."""
 
 
+class _Over:
+    """Whether a call is over. A lock wakes who waits; Ctrl-C may come when the lock is there already, so it is not what tells."""
+
+    def __init__(self) -> None:
+        self.lock = allocate_lock()
+        self.lock.acquire()
+        self.is_so = False
+
+    def tell(self) -> None:
+        self.is_so = True
+        self.lock.release()
+
+    def wait(self, seconds: float) -> bool:
+        """Wait so long; tell whether it is over."""
+        return self.is_so or self.lock.acquire(timeout=seconds) or self.is_so
+
+
 class _Call:
     """One call: what is called, and what came of it."""
 
@@ -48,8 +65,7 @@ class _Call:
         self.routine, self.arguments = routine, arguments
         self.result: Any = None
         self.error: BaseException | None = None
-        self.done = allocate_lock()
-        self.done.acquire()
+        self.over = _Over()
         self.is_left = False
 
     def make(self) -> None:
@@ -59,17 +75,17 @@ class _Call:
             self.error = error
         if self.is_left:
             go_on(self.arguments)
-        self.done.release()
+        self.over.tell()
 
     def end(self) -> bool:
         """Let it end where it looks whether it may go on, and wait for that a little; tell whether it has."""
         if not _has_beam(self.arguments):
             return False
         beam = self.arguments[0]
-        beam.left = os.getpid(), self.done
+        beam.left = os.getpid(), self.over
         self.is_left = True
         _engine.gbstop(beam, 1)
-        ended = self.done.acquire(timeout=PATIENCE)
+        ended = self.over.wait(PATIENCE)
         if ended:
             beam.left = None
             go_on(self.arguments)
@@ -105,7 +121,7 @@ class _Beside:
         call = _Call(routine, arguments)
         try:
             self.calls.put(call)
-            while not call.done.acquire(timeout=SECONDS):
+            while not call.over.wait(SECONDS):
                 pass  # signals that went to another thread are heard now
         except BaseException:
             ended = False
@@ -146,11 +162,10 @@ def _wait_for_what_is_left(arguments: tuple) -> None:
     """Wait, where signals are heard, for a call with the same beam that is left behind: the next one would be ended with it."""
     if not _has_beam(arguments) or arguments[0].left is None:
         return
-    process, done = arguments[0].left
+    process, over = arguments[0].left
     if process == os.getpid():  # in a forked process there is no thread that goes on
-        while not done.acquire(timeout=SECONDS):
+        while not over.wait(SECONDS):
             pass
-        done.release()  # others may wait too
     arguments[0].left = None
     go_on(arguments)
 
@@ -208,13 +223,12 @@ class Handle(Owned):
     ----------
     has_curves : bool
         Whether there is ground under it whose law is a curve: then even a few nodes may take long between two linear solves.
-    left : tuple of int and lock, optional
-        Of a call with it that a signal has ended and that goes on to its next look: the process, and a lock that is free when
-        that is over.
+    left : tuple, optional
+        Of a call with it that a signal has ended and that goes on to its next look: its process, and whether that is over.
     """
 
     has_curves = False
-    left: tuple[int, LockType] | None = None
+    left: tuple[int, _Over] | None = None
 
 
 def parts(count: int) -> Iterator[slice]:

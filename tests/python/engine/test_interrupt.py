@@ -194,6 +194,16 @@ def test_what_goes_on_beside_is_ended_too(monkeypatch):
     assert np.array_equal(beam.solve(factors[:9]).reaction, before)
 
 
+def test_a_lock_that_ctrl_c_has_kept_holds_up_no_later_call():
+    """Ctrl-C may come between that the lock of a call that is left is there and that anybody knows."""
+    handle, over = gapbeam.prepare(gapped_spans(3))._solver.beam.handle, calls._Over()
+    over.tell()
+    assert over.lock.acquire(timeout=0.0)
+    handle.left = os.getpid(), over
+    assert calls.interruptible(lambda _: 7)(handle) == 7
+    assert handle.left is None
+
+
 def test_small_beams_on_ground_are_interrupted(monkeypatch):
     """On curves even a few nodes may take long between two solves, so they are solved beside."""
     made, make = [], calls._BESIDE.make
