@@ -24,22 +24,14 @@ contains
             layers%contact_b = moving%layers(1, 2, :) + factor*moving%layers(2, 2, :)
         end associate
         if (.not. allocated(ground%moving%tension)) return
-        associate (begins => ground%moving%begins)
-            ground%pieces%tension = tension_at(ground%moving, factor)
-            ground%pieces%compression = max(0.0_wp, -tension_at(ground%moving, greatest_near(factor)))
-            do k = 1, size(begins)
-                ground%pieces%compression = max(ground%pieces%compression, -tension_at(ground%moving, begins(k)))
-            end do
-        end associate
-        if (.not. allocated(ground%moving%tension_change)) return
-        associate (begins => ground%moving%begins, more_at_zero => ground%moving%tension_change(1, :), &
-                   more => ground%moving%tension_change(2, :))
-            ground%pieces%tension_change = more_at_zero + factor*more
-            ground%pieces%pull = 0.0_wp
-            call cut_for(tension_at(ground%moving, greatest_near(factor)), &
-                         more_at_zero + greatest_near(factor)*more, ground%pieces)
-            do k = 1, size(begins)
-                call cut_for(tension_at(ground%moving, begins(k)), more_at_zero + begins(k)*more, ground%pieces)
+        associate (moving => ground%moving, pieces => ground%pieces)
+            pieces%tension = tension_at(moving, factor)
+            pieces%tension_change = change_at(moving, factor)
+            pieces%compression = 0.0_wp
+            pieces%pull = 0.0_wp
+            call cut_for(tension_at(moving, greatest_near(factor)), change_at(moving, greatest_near(factor)), pieces)
+            do k = 1, size(moving%begins)
+                call cut_for(tension_at(moving, moving%begins(k)), change_at(moving, moving%begins(k)), pieces)
             end do
         end associate
     end subroutine move_ground
@@ -60,13 +52,23 @@ contains
         tension(:) = moving%tension(1, :, last) + (factor - moving%begins(last))*moving%tension(2, :, last)
     end function tension_at
 
-    !> Let pieces be cut for axial forces that change along them
+    !> By how much they are greater at the right ends of the pieces
+    pure function change_at(moving, factor) result(change)
+        type(moving_type), intent(in) :: moving
+        real(wp), intent(in) :: factor
+        real(wp) :: change(size(moving%tension, 2))
+
+        change(:) = 0.0_wp
+        if (allocated(moving%tension_change)) change(:) = moving%tension_change(1, :) + factor*moving%tension_change(2, :)
+    end function change_at
+
+    !> Let a piece be cut for an axial force that it comes under
     elemental subroutine cut_for(tension, change, piece)
         !> At the left end, and by how much it is greater at the right one
         real(wp), intent(in) :: tension, change
         type(piece_type), intent(inout) :: piece
 
-        piece%compression = max(piece%compression, -(tension + change))
+        piece%compression = max(piece%compression, -tension, -(tension + change))
         if (abs(change) > 0.0_wp) piece%pull = max(piece%pull, tension, tension + change)
     end subroutine cut_for
 

@@ -23,8 +23,6 @@ module gapbeam_axial_links
         !> Numbers of the chain (numbers_of) there, and the scheme of its links, their last sizes as that
         real(wp), allocatable :: numbers(:, :, :)
         logical, allocatable :: closed(:, :)
-        !> Contacts of laws that keep a set, at the beginning of the last stretch
-        real(wp), allocatable :: last_contact(:)
     contains
         procedure :: keep
     end type links_type
@@ -90,7 +88,6 @@ contains
             walk%numbers(:, 2, k) = numbers_of(walk)
             walk%closed(:, k) = walk%chain%closed
         end associate
-        if (allocated(walk%contact)) walk%last_contact = walk%contact
         walk%start = walk%numbers(:, 2, walk%number)
     end subroutine keep
 
@@ -107,13 +104,9 @@ contains
         if (allocated(error)) return
         state%slides = links%lost
         if (links%lost) return
-        if (links%number == 0) then
-            call take_numbers(assembled, links%start, links%support, links%chain%closed, state)
-            if (allocated(links%contact)) state%along_contact = links%contact
-        else
-            call take_numbers(assembled, links%numbers(:, 2, links%number), links%support, links%closed(:, links%number), state)
-            if (allocated(links%last_contact)) state%along_contact = links%last_contact
-        end if
+        ! Where the last stretch ends, on the laws as they were where it began
+        call take_numbers(assembled, links%start, links%support, links%chain%closed, state)
+        if (allocated(links%contact)) state%along_contact = links%contact
         state%loose_along = links%chain%loose
     end subroutine take_links
 

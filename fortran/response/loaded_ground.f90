@@ -89,8 +89,7 @@ contains
             allocate (moving%begins(1), moving%tension(2, size(given), 1), source=0.0_wp)
             if (assembled%model%axial_loads_bend) then
                 if (present(state)) then
-                    if (allocated(state%stretched)) moving%tension(:, :, 1) = tensions_of_loads(assembled, state%stretched)
-                    if (.not. allocated(state%stretched)) moving%tension(:, :, 1) = tensions_of_loads(assembled)
+                    moving%tension(:, :, 1) = tensions_of_loads(assembled, state%stretched)
                 else
                     moving%tension(:, :, 1) = tensions_of_loads(assembled)
                 end if

@@ -10,11 +10,10 @@ module gapbeam_assemble_axial
     use gapbeam_units, only: exponents_type, stiffness_unit, units_with_loads, middle, middle_of, largest, no_exponent
     use gapbeam_assembled_model, only: assembled_type, point_x, from_to, piece_length, along_axis, has_ground_along, &
         has_springs_along
-    use gapbeam_axial_force, only: in_stretches, only_foundations, what_stretches
+    use gapbeam_axial_force, only: has_links_along, in_stretches, only_foundations, what_stretches
     use gapbeam_piece_stiffness, only: stiffness_of, stiffness_along
     use gapbeam_words, only: shown
     use gapbeam_input_error, only: refuse, refuse_range, named, of_supports, of_loads, of_sections, bad_load, bad_law
-    use gapbeam_check_axial, only: has_links_along
     use gapbeam_model, only: node_support_type
     use gapbeam_check_foundations, only: find_runs
     use gapbeam_assemble_laws, only: count_breakpoints, make_breakpoints

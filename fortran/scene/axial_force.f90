@@ -16,8 +16,8 @@ module gapbeam_axial_force
     use gapbeam_input_error, only: refuse, refuse_range, of_spans, of_sections, of_foundations, not_expected, bad_law
     implicit none
     private
-    public :: has_axial_force, axial_loads_may_bend, in_stretches, only_foundations, what_stretches, or_first_order, &
-        check_axial_force, check_masses, assign_axial_force
+    public :: has_axial_force, has_links_along, axial_loads_may_bend, in_stretches, only_foundations, what_stretches, &
+        or_first_order, check_axial_force, check_masses, assign_axial_force
 
 contains
 
@@ -39,6 +39,18 @@ contains
             .or. any(model%sections%N > gapbeam_unchanged .and. abs(model%sections%N) > 0.0_wp)
     end function is_given
 
+    !> Are there supports that act along the beam otherwise than springs both ways: one way, by a law, or by friction
+    pure function has_links_along(model, with_law) result(it_has)
+        type(model_type), intent(in) :: model
+        !> Which supports have a law
+        logical, intent(in) :: with_law(:)
+        logical :: it_has
+
+        associate (s => model%supports)
+            it_has = any(s%friction > 0.0_wp .or. (s%direction == gapbeam_axial .and. (s%side /= gapbeam_both .or. with_law)))
+        end associate
+    end function has_links_along
+
     !> Are there forces of axial loads, temperatures, settlements and stretching that bending might feel: those of a chain of bars,
     !> springs and links, which bending does not change
     pure function axial_loads_may_bend(model, with_law) result(they_may)
@@ -46,14 +58,13 @@ contains
         type(model_type), intent(in) :: model
         !> Which supports have a law
         logical, intent(in) :: with_law(:)
-        logical :: they_may, links, moved
+        logical :: they_may, moved
         integer :: i
 
         they_may = .false.
         if (model%first_order) return
         associate (s => model%supports, loads => model%loads)
             ! One support lets temperatures and settlements pass
-            links = any(s%direction == gapbeam_axial .and. (s%side /= gapbeam_both .or. with_law))
             moved = .false.
             do i = 1, size(loads)
                 if (loads(i)%kind /= gapbeam_movement) cycle
@@ -67,7 +78,7 @@ contains
                        .or. any(loads%kind == gapbeam_temperature .and. abs(loads%value_to) > 0.0_wp) .or. model%stretching)
             if (.not. they_may) return
             they_may = .not. (any(s%friction > 0.0_wp) .or. any(has_ground_along(model%sections)) &
-                              .or. (links .or. moved) .and. model%stretching &
+                              .or. (has_links_along(model, with_law) .or. moved) .and. model%stretching &
                               .or. any(loads%kind == gapbeam_axial_distributed) .and. .not. may_change(model))
         end associate
     end function axial_loads_may_bend

@@ -12,21 +12,9 @@ module gapbeam_check_axial
     use gapbeam_input_error, only: refuse, of_supports, bad_law
     implicit none
     private
-    public :: check_along, has_links_along
+    public :: check_along
 
 contains
-
-    !> Are there supports that act along the beam otherwise than springs both ways: one way, by a law, or by friction
-    pure function has_links_along(model, with_law) result(it_has)
-        type(model_type), intent(in) :: model
-        !> Which supports have a law
-        logical, intent(in) :: with_law(:)
-        logical :: it_has
-
-        associate (s => model%supports)
-            it_has = any(s%friction > 0.0_wp .or. (s%direction == gapbeam_axial .and. (s%side /= gapbeam_both .or. with_law)))
-        end associate
-    end function has_links_along
 
     !> Refuse what is not there yet, or makes no sense
     subroutine check_along(model, law, with_law, error)
