@@ -6,6 +6,7 @@ module gapbeam_api_objects
         gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_words, only: shown, whole
     use gapbeam_search, only: rule_block, rule_single
+    use gapbeam_ground_start, only: ground_start_type
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_axial_force, only: what_stretches, or_first_order
     use gapbeam_solution, only: state_type, new_state
@@ -28,6 +29,8 @@ module gapbeam_api_objects
     !> A prepared beam: opaque
     type :: prepared_type
         type(assembled_type), allocatable :: lowered
+        !> On the ground: where the search for its states begins, if something is known of it
+        type(ground_start_type), allocatable :: near
     end type prepared_type
 
     !> How a beam is solved

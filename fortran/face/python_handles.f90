@@ -100,10 +100,11 @@ contains
         if (.not. allocated(error)) then
             associate (state => handle%result%state, lowered => beam%beam%lowered)
                 state%closed(:) = closed
+                ! What is not allocated is not present
                 if (on_laws == by_tangents) then
-                    call solve_on_laws(lowered, factor, rule, state, error)
+                    call solve_on_laws(lowered, factor, rule, state, error, start=beam%beam%near)
                 else
-                    call solve_state(lowered, factor, rule, state, error)
+                    call solve_state(lowered, factor, rule, state, error, beam%beam%near)
                 end if
                 if (any(on_laws == [with_lines, on_polylines]) .and. .not. allocated(error)) then
                     call audit_lines(lowered, factor, on_laws == on_polylines, state, error)

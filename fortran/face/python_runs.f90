@@ -19,8 +19,8 @@ subroutine gbrmak(beam, na, nu, offset, force, uniform, from, to, back, rule, tr
     integer, intent(in) :: rule
     ! Handle; 0 where there is an error
     integer(8), intent(out) :: train
-    ! Positions that are solved, those that are not (first and last of each), events, linear solves
-    integer, intent(out) :: sizes(4), status
+    ! Positions that are solved, those that are not (first and last of each), events, linear solves; 1: there may be other states
+    integer, intent(out) :: sizes(5), status
     character(len=240), intent(out) :: message
     !f2py threadsafe
     type(handle_type), pointer :: handle, passing
@@ -43,7 +43,7 @@ subroutine gbrmak(beam, na, nu, offset, force, uniform, from, to, back, rule, tr
         do i = 1, size(runs%runs)
             sizes(1) = sizes(1) + size(runs%runs(i)%states)
         end do
-        sizes(2:) = [size(runs%lost), size(runs%events), runs%solves]
+        sizes(2:) = [size(runs%lost), size(runs%events), runs%solves, merge(1, 0, runs%are_some_of_several)]
     end associate
 end subroutine gbrmak
 
@@ -165,3 +165,25 @@ subroutine gbrcur(beam, train, nq, nx, which, x, left, value, position, status, 
     call find_lines(handle%beam%lowered, passing%passing%runs, which, x, left /= 0, value, position, error)
     call report(error, status, message)
 end subroutine gbrcur
+
+! Let states of a beam that the train stands on begin where the train comes to on its way
+subroutine gbrway(beam, train, position, placed, status, message)
+    use gapbeam_python_handles, only: error_type, handle_type, behind, report
+    use gapbeam_train_limits, only: start_on_way
+    implicit none
+    integer(8), intent(in) :: beam, train
+    double precision, intent(in) :: position
+    ! The beam with the train at the position: new, nothing solved yet
+    integer(8), intent(in) :: placed
+    integer, intent(out) :: status
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    type(handle_type), pointer :: handle, passing, other
+    type(error_type), allocatable :: error
+
+    handle => behind(beam)
+    passing => behind(train)
+    other => behind(placed)
+    call start_on_way(handle%beam%lowered, passing%passing%runs, position, other%beam%lowered, other%beam%near, error)
+    call report(error, status, message)
+end subroutine gbrway

@@ -78,8 +78,11 @@ contains
             return
         end if
         if (allocated(assembled%layers)) then
-            call refuse_several_states(ground_of(assembled, 1.0_wp), error)
-            if (allocated(error)) return
+            if (depends_on_the_way(ground_of(assembled, 1.0_wp))) then
+                call fatal_error(error, gapbeam_bad_input, "goes over ground whose force falls, where states depend on the "// &
+                                 "way to them, which is not available in this version; give its axles as forces at places")
+                return
+            end if
         end if
         n = size(borders) - 1
         allocate (parts(n), stat=stat)
@@ -94,21 +97,14 @@ contains
         parts(:) = max(least_parts, ceiling((borders(2:) - borders(:n))/step))
     end subroutine find_parts
 
-    !> A beam that may have several states is refused
-    subroutine refuse_several_states(ground, error)
+    !> Does ground fall so that there may be several states
+    function depends_on_the_way(ground) result(it_does)
         type(ground_type), intent(in) :: ground
-        type(error_type), allocatable, intent(out) :: error
+        logical :: it_does
 
-        if (is_unique(ground)) return
-        if (any_falls(ground)) then
-            call fatal_error(error, gapbeam_bad_input, "goes over ground whose force falls, where states depend on the way to "// &
-                             "them, which is not available in this version; give its axles as forces at places")
-        else
-            call fatal_error(error, gapbeam_bad_input, "goes over a beam that would buckle off its one-sided supports (N below "// &
-                             "0), which is not available in this version; give its axles as forces at places, or first_order "// &
-                             "where axial loads press it")
-        end if
-    end subroutine refuse_several_states
+        it_does = any_falls(ground)
+        if (it_does) it_does = .not. is_unique(ground)
+    end function depends_on_the_way
 
     !> Distance of the positions
     pure function grid_step(assembled, deflection) result(step)

@@ -4,16 +4,18 @@ module gapbeam_train_limits
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_quantities, only: of_shear
+    use gapbeam_ground_start, only: ground_start_type
     use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_loaded_ground, only: ground_of
     use gapbeam_query, only: fields_at_places
     use gapbeam_train_on_beam, only: end_of_beam, distance_at_end, acting_axles
     use gapbeam_train_grid, only: places_of_jumps
-    use gapbeam_train_states, only: kept_type, solve_at, take_undecided
+    use gapbeam_train_states, only: kept_type, solve_at, put_near, same_units, take_undecided
     use gapbeam_train_tops, only: ruler_type
     use gapbeam_train_runs, only: runs_type, run_type
     implicit none
     private
-    public :: limit_type, find_limits, ruler_of, solve_in_run, shown_position
+    public :: limit_type, find_limits, ruler_of, solve_in_run, start_on_way, shown_position
 
     !> Share of the beam by which an axle stands beside a support when the shear between both is asked for: nearer to it, hardly any
     !> digits of it would be left
@@ -101,6 +103,36 @@ contains
         end associate
         solved = kept%status == gapbeam_solved
     end subroutine solve_in_run
+
+    !> Where the search for the state at a position begins, so that it is the one to which the train comes on its way
+    subroutine start_on_way(assembled, runs, position, placed, start, error)
+        type(assembled_type), intent(in) :: assembled
+        type(runs_type), intent(inout) :: runs
+        real(wp), intent(in) :: position
+        !> The beam with the train on it
+        type(assembled_type), intent(in) :: placed
+        !> Not allocated where that is not known
+        type(ground_start_type), allocatable, intent(out) :: start
+        !> As for solve_at
+        type(error_type), allocatable, intent(out) :: error
+        type(kept_type) :: kept
+        logical :: known
+        integer :: k
+
+        do k = 1, size(runs%runs)
+            associate (states => runs%runs(k)%states)
+                if (runs%boxes(states(1))%of%position > position) cycle
+                if (runs%boxes(states(size(states)))%of%position < position) cycle
+            end associate
+            call solve_in_run(assembled, runs, runs%runs(k), position, kept, known, error)
+            if (allocated(error) .or. .not. known) return
+            if (.not. same_units(kept, placed)) return
+            allocate (start)
+            call put_near(kept, placed, ground_of(placed, 1.0_wp), start, known)
+            if (.not. known) deallocate (start)
+            return
+        end do
+    end subroutine start_on_way
 
     !> The next position at which the axles of a state are on the beam: its own but where an axle is just beside an end
     pure function shown_position(assembled, runs, kept) result(position)

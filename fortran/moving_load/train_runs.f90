@@ -20,6 +20,7 @@ module gapbeam_train_runs
     use gapbeam_train_states, only: kept_type, box_type, alike
     use gapbeam_train_way, only: crossing_type, append
     use gapbeam_train_problem, only: train_problem_type, position_type, new_train_problem, add_state
+    use gapbeam_train_reversal, only: are_some_of_several, refuse_other_way
     implicit none
     private
     public :: run_type, lost_type, runs_type, follow_train_on_ground
@@ -54,6 +55,8 @@ module gapbeam_train_runs
         type(lost_type), allocatable :: lost(:)
         !> In the order in which they happen
         type(train_event_type), allocatable :: events(:)
+        !> May the beam have other states at these positions
+        logical :: are_some_of_several = .false.
         integer :: solves = 0
     end type runs_type
 
@@ -71,7 +74,7 @@ contains
         !> Does it go towards smaller positions
         logical, intent(in) :: backwards
         type(runs_type), intent(out) :: runs
-        !> As for solve_at, too many positions, or changes that cannot be told apart
+        !> As for solve_at and refuse_other_way, too many positions, or changes that cannot be told apart
         type(error_type), allocatable, intent(out) :: error
         type(train_problem_type) :: problem
         integer, allocatable :: cells(:)
@@ -82,6 +85,8 @@ contains
         runs%to = to
         call new_train_problem(assembled, train, rule, problem)
         call walk_cells(problem, from, to, cells, error)
+        runs%are_some_of_several = are_some_of_several(problem)
+        if (backwards .and. runs%are_some_of_several .and. .not. allocated(error)) call refuse_other_way(problem, error)
         if (.not. allocated(error)) call read_way(problem, cells, backwards, runs)
         if (.not. allocated(error)) call fill_short_runs(problem, runs, error)
         if (allocated(error)) return

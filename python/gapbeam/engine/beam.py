@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,6 +15,9 @@ from .layout import Curve, Layout
 from .quantities import QUANTITIES
 from .states import Along, Chain, Solution, State
 from .units import Units
+
+if TYPE_CHECKING:
+    from .runs import Runs
 
 SOLVED, NO_EQUILIBRIUM = Status.SOLVED, Status.NO_EQUILIBRIUM
 """Outcomes, as in gapbeam_error; codes above 10 are errors."""
@@ -88,6 +92,7 @@ class Beam(Layout):
     """
 
     also: frozenset[str] = frozenset()
+    _way: tuple[Runs, float] | None = None
     __hash__ = None
 
     def __init__(self, columns: Columns, curves: tuple[tuple[int, Curve], ...] = ()):
@@ -170,10 +175,33 @@ class Beam(Layout):
         beam.__dict__["laws"] = self.laws  # which breakpoints they have stays
         return beam
 
+    def begin_on_way(self, runs: Runs, position: float) -> None:
+        """Let states begin where a train comes to on its way: under compression there may be others.
+
+        Parameters
+        ----------
+        runs : Runs
+            The train on its way.
+        position : float
+            At which it stands on this beam, of which nothing is solved yet.
+
+        Raises
+        ------
+        EngineError
+            As for the states.
+        """
+        self._way = runs, position
+        runs.lead(position, self.handle)
+
+    @property
+    def begins_on_way(self) -> bool:
+        """Whether its states are those to which a train comes on its way."""
+        return self._way is not None
+
     def __reduce__(self) -> tuple:
         """Pickle by what it is made of."""
         breakpoints = self.breakpoints if self.has_laws else None
-        return _made_of, (self.columns, self.curves, self._factors, breakpoints, self.also)
+        return _made_of, (self.columns, self.curves, self._factors, breakpoints, self.also, self._way)
 
     def __eq__(self, other: object) -> bool:
         """Whether they are made of the same numbers."""
@@ -296,10 +324,12 @@ class Beam(Layout):
 
 def _made_of(
     columns: Columns, curves: tuple[tuple[int, Curve], ...], factors: np.ndarray | None, breakpoints: np.ndarray | None,
-    also: frozenset[str],
+    also: frozenset[str], way: tuple[Runs, float] | None,
 ) -> Beam:
     """Make a beam that was pickled again."""
     beam = Beam(columns, curves)
     beam.also = also
+    if way is not None:
+        beam.begin_on_way(*way)
     beam = beam if factors is None else beam.with_factors(factors)
     return beam if breakpoints is None else beam.with_breakpoints(breakpoints)

@@ -356,6 +356,7 @@ gbrmak = interruptible(_engine.gbrmak)
 gbrget = _engine.gbrget
 gbrext = interruptible(_engine.gbrext)
 gbrcur = interruptible(_engine.gbrcur)
+gbrway = interruptible(_engine.gbrway)
 _short_cases = interruptible(_engine.gbcase, lambda *_: 0)
 _long_cases = interruptible(_engine.gbcase)
 

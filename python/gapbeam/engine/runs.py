@@ -41,6 +41,8 @@ class Runs:
         (gapbeam_pieces).
     solves : int
         Linear solves.
+    are_some_of_several : bool
+        Whether the beam may have other states at these positions.
 
     Raises
     ------
@@ -59,7 +61,8 @@ class Runs:
         )
         check_status(status, message)
         self._handle, self._one_at_a_time = _engine.Owned(handle), Lock()
-        solved, lost, events, self.solves = sizes.tolist()
+        solved, lost, events, self.solves, several = sizes.tolist()
+        self.are_some_of_several = several == 1
         place, run, acts, ends, codes, lost_acts, where, what = _engine.gbrget(
             handle, len(offset), solved + 1, lost + 1, events + 1
         )
@@ -126,3 +129,21 @@ class Runs:
         largest = np.finfo(float).max
         values[values >= largest], values[values <= -largest] = np.inf, -np.inf
         return values, positions
+
+    def lead(self, position: float, placed: _engine.Handle) -> None:
+        """Let states of a beam on which the train stands begin where the train comes to on its way.
+
+        Parameters
+        ----------
+        position : float
+            Of the train.
+        placed : Handle
+            That beam.
+
+        Raises
+        ------
+        EngineError
+            As for the states.
+        """
+        with self._one_at_a_time:
+            check_status(*_engine.gbrway(self.beam.handle, self._handle, position, placed))

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..engine.beam import SOLVED
+from ..results.trains.sampled import SampledTraversal
 from ..results.trains.states import Placed, TrainLoads
 from ..scene.rotations import turns
 from .load_ways import PIXEL, Way, of_event
@@ -19,7 +20,7 @@ from .states import Recorder, joined_moments, on_ground, packed
 if TYPE_CHECKING:
     from ..results.result import Result
     from ..results.trains.trains import TrainResult
-    from ..results.trains.traversals import ExactTraversal, SampledTraversal
+    from ..results.trains.traversals import ExactTraversal
     from ..scene.trains import Course
 
 AT_SUPPORTS = ("reaction", "deflection", "opening")
@@ -281,7 +282,8 @@ def way_of_train(
         Positions whose states are given too.
     """
     course, beam = traversal.course, result._beam
-    loads = TrainLoads(beam, result._rule, course, traversal.near)
+    sampled = isinstance(traversal, SampledTraversal)
+    loads = traversal.loads if sampled else TrainLoads(beam, result._rule, course, traversal.near)
     way = TrainWay(PlacedRecorder(result, words), largest, loads)
     lost = [one for one in train.unstable_positions if one.direction == course.direction]
     changes = sorted({one.position for one in traversal.events} | {end for one in lost for end in (one.from_, one.to)} | {*also})

@@ -41,6 +41,10 @@ WIDTH = 56
 ONE_OF_SEVERAL = ("Under this compression other stable states are not excluded. This one is reached as the axial forces grow "
                   "from 0, with all other loads in full.")  # fmt: skip
 """Of a state that is not proved to be the only one."""
+ON_ITS_WAY = "Under this compression other stable states are not excluded. This is the one to which the train comes on its way."
+"""The same under a train."""
+TRAINS_STAY = "A train begins in such a state, and stays on its branch until the beam snaps to another one."
+"""Of the trains of such a beam."""
 ONE_ON_FALLING_GROUND = ("The force of the ground falls, so that other stable states are not excluded. This one is reached as the "
                          "loads grow, the dead loads first.")  # fmt: skip
 """The same where ground is why."""
@@ -245,5 +249,8 @@ def answer(result: Result) -> list[str]:
     lines += values_in_words(result, envelope)
     lines += _limits_in_words(result, find_utilisations(result, envelope))
     if result.stands and is_one_of_several(result):
-        lines.append(ONE_ON_FALLING_GROUND if any_falls(result.scene.foundation) else ONE_OF_SEVERAL)
+        falling = any_falls(result.scene.foundation)
+        lines.append(ONE_ON_FALLING_GROUND if falling else ON_ITS_WAY if result._beam.begins_on_way else ONE_OF_SEVERAL)
+        if result.scene.trains and not falling:
+            lines.append(TRAINS_STAY)
     return lines + doubts_of_scene(result, envelope)

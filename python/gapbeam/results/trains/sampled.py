@@ -75,6 +75,7 @@ class SampledTraversal:
             if error.status != Status.BAD_INPUT:
                 raise
             raise SceneError("trains", f"the train {name} {error}") from None
+        self.loads.runs = self.engine
         places, events = self.engine.places.tolist(), self.engine.events.tolist()
         self.events = [
             TrainEvent(position, None if k < 0 else k, x, EVENTS[what], course.direction, None if f < 0 else f, branch)

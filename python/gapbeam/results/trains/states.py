@@ -18,6 +18,7 @@ from ..state.step import Step
 from .traversals import NO_ANSWER
 
 if TYPE_CHECKING:
+    from ...engine.runs import Runs
     from ...scene.trains import Course
 
 
@@ -87,11 +88,17 @@ class TrainLoads:
         The train.
     near : float
         Distance below which an axle is at the end of the beam.
+
+    Attributes
+    ----------
+    runs : Runs or None
+        The train on its way, once it has gone over the beam.
     """
 
     def __init__(self, beam: Beam, rule: str, course: Course, near: float):
         self.beam, self.rule, self.course, self.near = beam, rule, course, near
         self.start = starting_scheme(beam)
+        self.runs: Runs | None = None
 
     def acting(self, position: float) -> np.ndarray:
         """Tell which axles act at a position, those at the ends of the beam included."""
@@ -126,4 +133,23 @@ class TrainLoads:
             for own, new in ((base.load_codes, codes), (base.load, numbers))
         )
         beam = Beam(replace(base, load_codes=load_codes, load=load), self.beam.curves)
+        self.lead(beam, position)
         return Placed(position, acts, beam, Step(beam, 1.0, self.rule, self.start))
+
+    def lead(self, beam: Beam, position: float) -> None:
+        """Let the state of a beam with the train on it be the one to which it comes on its way, where there may be others.
+
+        Parameters
+        ----------
+        beam : Beam
+            New.
+        position : float
+            Of the train.
+
+        Raises
+        ------
+        EngineError
+            Numbers are beyond the range of doubles.
+        """
+        if self.runs is not None and self.runs.are_some_of_several:
+            beam.begin_on_way(self.runs, position)

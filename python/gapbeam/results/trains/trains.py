@@ -232,7 +232,10 @@ class TrainResult(TrainVerbs):
         # Extremes beside the end, where an axle has just left, are farther off
         position = at_ends(position, self._joined, direction, self._result._beam.places.end, POSITION_TOLERANCE)
         scene = loaded(self._result.scene, traversal.course, traversal.near, position)
-        result = self._result._another(scene, beam_of(scene), self._result._rule if scheme is None else GIVEN)
+        beam = beam_of(scene)
+        if isinstance(traversal, SampledTraversal):
+            traversal.loads.lead(beam, position)
+        result = self._result._another(scene, beam, self._result._rule if scheme is None else GIVEN)
         result.steps = LoadSteps(result._beam, result._rule, starting_scheme(result._beam) if scheme is None else scheme, 1)
         fallen = result.steps.solve_all()
         if fallen is not None:
