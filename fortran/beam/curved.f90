@@ -9,7 +9,7 @@ module gapbeam_curved
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_steps_on_curves
     use gapbeam_tolerances, only: largest_field, no_curve_slope, beginning_of_way, step_caution, shortest_step
-    use gapbeam_foundation_stretch, only: softness_type, softness_in, softness_around, soften
+    use gapbeam_foundation_stretch, only: softness_type, softness_in, softness_around, soften, tension_at
     use gapbeam_foundation_taylor, only: stretch_type, stretch_load_type, half_type, half_of_transfer, transfer_of_forces, &
         stretched_shear, transverse_of
     use gapbeam_foundation, only: stretch_link_type, link_of_halves
@@ -48,7 +48,7 @@ contains
         real(wp), intent(out) :: step
         type(law_series_type) :: series(size(curved%curves))
         type(softness_type) :: softness
-        real(wp) :: h, k(0:1), q(0:order), pressure, w, axis(0:order)
+        real(wp) :: h, k(0:1), pull(0:1), q(0:order), pressure, w, axis(0:order)
         real(wp), dimension(1, 0:order) :: bent, slid, shifted
         integer :: i, n
 
@@ -59,7 +59,9 @@ contains
             q(0:2) = [p%qa*eta + p%qb*xi + p%qc*xi*eta, (p%qb - p%qa + p%qc*(eta - xi))*way, -p%qc*way**2]
             softness = softness_around(s, xi, way)
             w = y(1) + softness%value(2)*y(3)
-            q(0:1) = q(0:1) + s%tension*[p%kappa + xi*p%rise, way*p%rise]
+            pull = [tension_at(s, xi), s%tension_change*way]
+            q(0:1) = q(0:1) + pull(0)*[p%kappa + xi*p%rise, way*p%rise]
+            q(1:2) = q(1:2) + pull(1)*[p%kappa + xi*p%rise, way*p%rise]
             do i = 1, size(series)
                 associate (curve => curved%curves(i))
                     call begin_series(curve, xi, way, is_negative(curve), series(i))
@@ -92,7 +94,11 @@ contains
                     if (n == 1) c(2, 2) = c(2, 2) + part*(way*p%rise)
                     c(3, n + 1) = part*c(4, n)
                     c(4, n + 1) = part*(pressure - q(n))
-                    if (abs(s%tension) > 0.0_wp) c(4, n + 1) = part*(pressure + s%tension*bent(1, n) - q(n))/stretched_shear(s)
+                    if (abs(pull(0)) > 0.0_wp) c(4, n + 1) = part*(pressure + pull(0)*bent(1, n) - q(n))/stretched_shear(s)
+                    if (abs(pull(1)) > 0.0_wp) then
+                        c(4, n + 1) = c(4, n + 1) - (pull(1)/(n + 1))*c(2, n)
+                        if (n > 0) c(4, n + 1) = c(4, n + 1) + part*pull(1)*bent(1, max(0, n - 1))
+                    end if
                 end associate
             end do
             step = min(step_of(c(4, :), sum(abs(c(4, 0:3)))), step_on_taper(softness))

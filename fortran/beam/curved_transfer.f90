@@ -1,7 +1,8 @@
 !> Steps along a stretch of beam on ground with a curved law: series at the end of a step, and how they change with its beginning.
 module gapbeam_curved_transfer
     use gapbeam_kinds, only: wp, dp
-    use gapbeam_foundation_stretch, only: stretch_type, softness_type, is_of_one_stiffness, softness_around, soften
+    use gapbeam_foundation_stretch, only: stretch_type, softness_type, is_of_one_stiffness, softness_around, soften, &
+        tension_at
     use gapbeam_foundation_taylor, only: stretched_shear
     use gapbeam_law_series, only: order, order_in_double
     implicit none
@@ -15,7 +16,7 @@ contains
         type(stretch_type), intent(in) :: stretch
         !> Where it begins, unit of t, the modulus as a series in it, and the step
         real(wp), intent(in) :: xi, way, modulus(0:), step
-        real(wp) :: transfer(4, 4), c(0:order, 4), w(0:order), part(0:order), stretched
+        real(wp) :: transfer(4, 4), c(0:order, 4), w(0:order), part(0:order), stretched, pull(0:1)
         real(dp) :: rough_modulus(0:order), rough_w(0:order)
         real(wp), dimension(1, 0:order) :: bent, slid, shifted
         type(softness_type) :: softness
@@ -23,7 +24,8 @@ contains
 
         ! Where the force of the ground does not change with the deflection, nothing is left beyond cubes
         terms = order
-        if (.not. (any(abs(modulus) > 0.0_wp) .or. abs(stretch%tension) > 0.0_wp) .and. is_of_one_stiffness(stretch)) terms = 3
+        pull = [tension_at(stretch, xi), stretch%tension_change*way]
+        if (.not. (any(abs(modulus) > 0.0_wp) .or. any(abs(pull) > 0.0_wp)) .and. is_of_one_stiffness(stretch)) terms = 3
         softness = softness_around(stretch, xi, way)
         part(:) = [(stretch%length*way/(n + 1), n=0, order)]
         stretched = stretched_shear(stretch)
@@ -44,10 +46,14 @@ contains
                 else
                     c(n + 1, 4) = real(dot_product(rough_modulus(0:n), rough_w(n:0:-1)), wp)
                 end if
-                if (abs(stretch%tension) > 0.0_wp) then
-                    c(n + 1, 4) = part(n)*(c(n + 1, 4) + stretch%tension*bent(1, n))/stretched
+                if (abs(pull(0)) > 0.0_wp) then
+                    c(n + 1, 4) = part(n)*(c(n + 1, 4) + pull(0)*bent(1, n))/stretched
                 else
                     c(n + 1, 4) = part(n)*c(n + 1, 4)
+                end if
+                if (abs(pull(1)) > 0.0_wp) then
+                    c(n + 1, 4) = c(n + 1, 4) - (pull(1)/(n + 1))*c(n, 2)
+                    if (n > 0) c(n + 1, 4) = c(n + 1, 4) + part(n)*pull(1)*bent(1, max(0, n - 1))
                 end if
             end do
             do i = 1, 4

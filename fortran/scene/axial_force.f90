@@ -83,15 +83,13 @@ contains
         end associate
     end function axial_loads_may_bend
 
-    !> May the axial force change along a piece: series know that where nothing bends by shear, off ground whose law may be a curve,
-    !> or that is rigid
+    !> May the axial force change along a piece: series know that where nothing bends by shear, off ground that is rigid
     pure function may_change(model) result(it_may)
         type(model_type), intent(in) :: model
         logical :: it_may
 
         it_may = all(model%spans%GA > huge(1.0_wp)) &
             .and. .not. any(model%sections%GA > 0.0_wp .and. model%sections%GA <= huge(1.0_wp)) &
-            .and. size(model%ground_law) == 0 .and. all(model%foundations%law == gapbeam_law_by_points) &
             .and. .not. any(model%foundations%k > huge(1.0_wp))
     end function may_change
 

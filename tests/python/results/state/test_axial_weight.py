@@ -132,13 +132,84 @@ def test_random_beams_beside_short_pieces(seed):
     assert len({line.split("x = 0")[-1].split()[0] if "x = 0" in line else line.split()[-2] for line in sums}) <= 2
 
 
-def test_in_first_order_beside_shear_and_curves():
+def test_in_first_order_beside_shear_and_rigid_ground():
     """Where series of it are not available."""
     scene = simple(10.0, 0.0, 0.0)
     assert gapbeam.solve(scene)._beam.feels_axial_loads
     assert not gapbeam.solve({**scene, "beam": {**scene["beam"], "GA": 100.0}})._beam.feels_axial_loads
-    law = {"type": "tanh", "stiffness": 10.0, "limit": 5.0}
-    assert not gapbeam.solve({**scene, "foundation": [{"law": law}]})._beam.feels_axial_loads
+    rigid = {"k": float("inf"), "side": "below", "gap": 0.1}
+    assert not gapbeam.solve({**scene, "foundation": [rigid]})._beam.feels_axial_loads
+
+
+def cubic(w, p):
+    """The next term of 20 w + 3e5 w^3 from those of w."""
+    i = len(p)
+    square = [mp.fsum(w[j] * w[k - j] for j in range(k + 1)) for k in range(i + 1)]
+    return 20 * w[i] + 300000 * mp.fsum(square[k] * w[i - k] for k in range(i + 1))
+
+
+def tanh(w, p):
+    """The same of 2 tanh(30 w), whose slope is 60 - 15 p^2."""
+    i = len(p) - 1
+    if i < 0:
+        return 2 * mp.tanh(30 * w[0])
+    slope = [(60 if k == 0 else 0) - 15 * mp.fsum(p[j] * p[k - j] for j in range(k + 1)) for k in range(i + 1)]
+    return mp.fsum(slope[k] * (i - k + 1) * w[i - k + 1] for k in range(i + 1)) / (i + 1)
+
+
+def on_curve(q, pull, force, guess):
+    """Fields at the eighths, on ground that pushes by a curve: series from rotation and transverse force at the left end."""
+
+    def go_on(start, before):
+        w, psi, M, T = ([value] for value in start)
+        p = []
+        for i in range(32):
+            p.append(force(w, p))
+            turned = (pull + q * (1 - before)) * psi[i] - (q * psi[i - 1] if i else 0)
+            w.append(psi[i] / (i + 1))
+            psi.append(-M[i] / (i + 1))
+            M.append((T[i] - turned) / (i + 1))
+            T.append((p[i] - (1 if i == 0 else 0)) / (i + 1))
+        return [mp.fsum(term / mp.mpf(8) ** i for i, term in enumerate(one)) for one in (w, psi, M, T)]
+
+    def fields(psi, T):
+        found = [[mp.mpf(0), psi, mp.mpf(0), T]]
+        for i in range(8):
+            found.append(go_on(found[-1], mp.mpf(i) / 8))
+        return found
+
+    with mp.workdps(30):
+        q, pull = mp.mpf(q), mp.mpf(pull)
+        start = mp.findroot(lambda *start: fields(*start)[-1][0:3:2], [mp.mpf(one) for one in guess])
+        return [[float(value) for value in one] for one in zip(*fields(*start), strict=True)]
+
+
+@pytest.mark.parametrize(
+    ("q", "pull", "law", "force"),
+    [
+        (40.0, 0.0, {"type": "cubic", "k1": 20.0, "k2": 0.0, "k3": 3e5}, cubic),
+        (-30.0, 9.0, {"type": "tanh", "stiffness": 60.0, "limit": 2.0}, tanh),
+    ],
+)
+def test_on_ground_that_pushes_by_a_curve(q, pull, law, force):
+    result = gapbeam.solve({**simple(q, pull, 0.0), "foundation": [{"law": law}]})
+    fields = result.at(np.linspace(0.0, 1.0, 9))
+    exact = np.array(on_curve(q, pull, force, (fields.rotation[0], fields.transverse[0])))
+    for name, values in zip(("deflection", "rotation", "moment", "transverse"), exact, strict=True):
+        assert getattr(fields, name) == pytest.approx(values, rel=1e-12, abs=1e-12 * np.abs(values).max())
+
+
+def test_modes_on_curves_are_those_on_their_tangents():
+    """Next to no deflection: the slope of every law is that of the ground."""
+    laws = [{"k": 50.0}, {"law": {"type": "tanh", "stiffness": 50.0, "limit": 1e9}}, {"law": [[1.0, 50.0], [2.0, 60.0]]}]
+    found = []
+    for law in laws:
+        scene = {**simple(-30.0, 8.0, 0.0), "foundation": [law], "analysis": {"buckling": 2, "frequencies": 2}}
+        scene["beam"] = {**scene["beam"], "mass": 1.0}
+        result = gapbeam.solve(scene)
+        found.append([*result.buckling, *result.frequencies])
+    assert found[1] == pytest.approx(found[0], rel=1e-12)
+    assert found[2] == pytest.approx(found[0], rel=1e-12)
 
 
 def test_load_factors_events_and_cases():
