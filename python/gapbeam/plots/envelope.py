@@ -29,7 +29,7 @@ from .labels import text_width
 from .load_symbols import draw_loads
 from .loads import LoadLanes
 from .marks import Marks
-from .panels import MOST_CHARACTERS, MOST_POINTS, PANELS, counts, cut_text, outcome
+from .panels import MOST_CHARACTERS, MOST_POINTS, PANELS, axial_force_told, counts, cut_text, outcome
 from .save import literal
 from .sheet import Sheet, along, heading_height
 from .states import legend_handles, plain_states, symbols_of
@@ -163,6 +163,8 @@ def _headline(result: Result, sources: list[Any], several: bool) -> str:
     if result.scene.trains and sources:
         names = ", ".join(dict.fromkeys(visible(one.train) for one in sources if one.train))
         text += cut_text(f" while trains pass: {names}", 85)
+        if not result.combinations and result.steps:
+            text += axial_force_told(result, result.steps[-1])
     return "\n".join(textwrap.wrap(text + "; the strips tell which one governs" * several, MOST_CHARACTERS))
 
 

@@ -8,9 +8,11 @@ from matplotlib.ticker import ScalarFormatter
 from ..base.characters import with_minus_signs
 from ..engine.quantities import QUANTITIES
 from ..results import formatting as fmt
+from ..results.equilibrium import acting_axial_forces, feels_axial_force
 
 if TYPE_CHECKING:
     from ..results.result import Result
+    from ..results.state.step import Step
     from ..scene.structs import Scene
 
 #: Inches. The width is that of an A4 page between its margins.
@@ -42,6 +44,23 @@ def outcome(result: "Result") -> str:
     begin = "No equilibrium. " if result.status == "no-equilibrium" else ""
     words = (begin + fmt.sentence(result.reason)).replace(" = ", f"{FIXED}={FIXED}")
     return "\n".join(textwrap.wrap(words, MOST_CHARACTERS)).replace(FIXED, " ")
+
+
+def axial_force_told(result: "Result", step: "Step") -> str:
+    """Say between which values the axial force is that bending feels; nothing where there is none.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load.
+    step : Step
+        One of its states.
+    """
+    if not feels_axial_force(result):
+        return ""
+    forces = [force for *_, left, right in acting_axial_forces(result, step) for force in (left, right)]
+    ends = dict.fromkeys(fmt.value(result.scene, "axial_force", force) for force in (min(forces), max(forces)))
+    return with_minus_signs(f", N {' to '.join(ends)}")
 
 
 def cut_text(text: str, most: int) -> str:

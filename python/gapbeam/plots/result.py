@@ -15,7 +15,6 @@ from matplotlib.figure import Figure
 
 from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
-from ..results.equilibrium import acting_axial_forces, feels_axial_force
 from ..results.state.ground import joined, noun_of
 from ..scene.rotations import turns
 from .beam import SupportLanes, draw_beam, draw_contacts
@@ -28,7 +27,7 @@ from .load_symbols import draw_loads
 from .loads import LoadLanes
 from .marks import MOST_MARKS, find_peaks
 from .movements import Movements, draw_movements
-from .panels import MOST_CHARACTERS, PANELS, outcome
+from .panels import MOST_CHARACTERS, PANELS, axial_force_told, outcome
 from .save import literal, save
 from .sheet import Sheet, along, heading_height
 from .states import SYMBOLS, kinds_of, legend_handles, plain_kinds, plain_states, symbols_of
@@ -136,10 +135,7 @@ def _headline(result: "Result", step: int, kinds: tuple[str, ...], contact: "tup
     if joints:
         verb = "hold" if len(joints) > 1 else "holds"
         text += f", {len(joints) - joints.count('open'):,} of {fmt.count(len(joints), 'joint')} {verb}"
-    if feels_axial_force(result):
-        forces = [force for *_, left, right in acting_axial_forces(result, result.steps[step]) for force in (left, right)]
-        ends = dict.fromkeys(fmt.value(scene, "axial_force", force) for force in (min(forces), max(forces)))
-        text += with_minus_signs(f", N {' to '.join(ends)}")
+    text += axial_force_told(result, result.steps[step])
     zones = joined(contact)
     text += f", contact in {fmt.count(len(zones), noun_of(zones))}" if contact else ""
     return "\n".join(textwrap.wrap(text, MOST_CHARACTERS))

@@ -7,7 +7,9 @@ import mpmath as mp
 import numpy as np
 import pytest
 from gapbeam.html.page import html_page
+from gapbeam.plots import figure
 from gapbeam.report import report_text
+from matplotlib.text import Text
 
 GAP = 0.02
 
@@ -130,6 +132,7 @@ def test_a_heated_rail_under_a_bogie():
     left = [one.position + 1.8 for one in events[::-1] if one.direction == "left" and one.position < 12.2]
     assert left == pytest.approx(right, abs=1e-9)
     assert len(right) > 3
+    assert any("bogie, N \N{MINUS SIGN}1500" in text.get_text() for text in figure(result).findobj(Text))
     cold = gapbeam.solve(rail(0.0)).envelope()
     assert envelope.extremes["moment"]["max"].value > cold.extremes["moment"]["max"].value
 
