@@ -10,7 +10,7 @@ module gapbeam_tolerances
     public :: position_tolerance, end_tolerance, cubic_rounding, settled_on_laws, most_unit_power, narrowest_interval
     public :: narrowest_patch, patch_rounding, newton_leaves, ground_ulps, no_decay_left, root_piece_length, same_parameters
     public :: tanh_is_one, largest_field, no_curve_slope, beginning_of_way, step_caution, same_compression, least_share
-    public :: little_compression, long_compression, no_jump, mode_digits, mode_width, same_length, no_decay_length, shortest_step
+    public :: little_compression, long_compression, mode_digits, mode_width, same_length, no_decay_length, shortest_step
     public :: most_root_pieces, taylor_tail, root_place, pivot_digits, hidden_change, pivot_hair, least_quad_pivot, near_zero
     public :: last_width, rounding_product, most_in_subdomains, subdomain_lengths, boundary_share, first_spring
     public :: first_reaction_share, last_correction, harmless_correction, no_work, no_speed, clearly_more, least_spring_force
@@ -131,9 +131,6 @@ module gapbeam_tolerances
     real(wp), parameter :: same_compression = 2.0_wp**(-44)
     !> Least share looked for to all digits; tuned. Read by precision/compressed, precision/falling_ground, precision/falling_way
     real(wp), parameter :: least_share = 2.0_wp**(-30)
-    !> Share of what a deflection bends, or a moment deflects, below which changes of the other are rounding; tuned. Read by
-    !> precision/compressed
-    real(wp), parameter :: no_jump = 2.0_wp**(-36)
     !> Phase of a wave under compression along one piece from which on the share that a beam may bear at all is looked for first;
     !> tuned: shorter ones are cut into a few stretches. Read by precision/compressed
     real(wp), parameter :: long_compression = 4.0_wp

@@ -2,23 +2,23 @@
 !>
 !> With all one-sided supports open and off all one-sided ground a stable beam has one state whatever acts (its matrix is
 !> positive definite, so the complementarity problem has one solution). Where it is not stable then, the axial forces grow from 0
-!> to what they are with all other loads in full, from state to state near the last one, each of which is stable. Where there is
-!> none nearby any more the beam buckles: other stable states, farther away, are not looked for.
+!> to what they are with all other loads in full, from state to state, in steps over which these are on one branch for sure
+!> (gapbeam_uniqueness). Where the branch ends the beam buckles: other stable states, farther away, are not looked for.
 !>
 !> A beam that gives way even with all that may hold it acting has no stable state in any scheme. The axial forces are let grow to
 !> the share for which that is so first, in stretches that are no shorter than it asks for: hopeless compression costs no more.
 module gapbeam_compressed
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: least_compressions, most_compressions, most_solves_followed, mode_parts, most_mode_stretches
-    use gapbeam_tolerances, only: same_compression, least_share, little_compression, long_compression, no_jump
+    use gapbeam_tolerances, only: same_compression, least_share, little_compression, long_compression
     use gapbeam_words, only: whole
-    use gapbeam_error, only: error_type, fatal_error, has_ended, gapbeam_solved, gapbeam_buckles, gapbeam_not_converged, &
-        gapbeam_bad_input
+    use gapbeam_error, only: error_type, fatal_error, has_ended, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_buckles, &
+        gapbeam_not_converged, gapbeam_bad_input
     use gapbeam_law, only: both
     use gapbeam_law_margins, only: let_go
     use gapbeam_piece, only: is_compressed
     use gapbeam_filled_ground, only: any_falls
-    use gapbeam_uniqueness, only: is_unique, compression_lengths
+    use gapbeam_uniqueness, only: is_unique, is_one_branch, compression_lengths
     use gapbeam_ground_steps, only: greatest_modulus
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact
     use gapbeam_moved_ground, only: under_share
@@ -36,9 +36,6 @@ module gapbeam_compressed
     implicit none
     private
     public :: solve_stable
-
-    !> Change of a state, beside it, for which its axial forces need not grow in steps
-    real(wp), parameter :: next_to_nothing = 1.0_wp/least_compressions**2
 
 contains
 
@@ -183,7 +180,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(ground_start_type), intent(in), optional :: near
         type(ground_solution_type) :: last
-        type(ground_start_type) :: start
+        type(ground_start_type) :: start, next
         logical :: first(size(closed)), last_closed(size(closed)), reached, gives_way, leaves
         real(wp), allocatable :: mode(:)
         real(wp) :: share, step
@@ -204,7 +201,7 @@ contains
         share = 0.0_wp
         reached = .false.
         do search = 1, 2
-            ! All at once where that changes next to nothing
+            ! All at once where that stays on one branch for sure
             step = merge(1.0_wp, 1.0_wp/least_compressions, search == 1)
             do number = 1, most_compressions
                 call start_from(last, last_closed, start)
@@ -213,17 +210,20 @@ contains
                                      outcome, error, start, only_near=search == 1)
                 solves = solves + solution%solves
                 if (has_ended(error)) return
-                if (is_solved(outcome, error)) reached = .not. jumps(last, solution, merge(next_to_nothing, 1.0_wp, step >= 1.0_wp))
-                if (reached .and. step >= 1.0_wp) reached = all(closed .eqv. last_closed)
+                reached = is_solved(outcome, error)
+                if (reached) then
+                    call start_from(solution, closed, next)
+                    reached = is_one_branch(under_share(ground, min(1.0_wp, share + step)), start, next, factor)
+                end if
                 if (reached .and. share + step >= 1.0_wp) exit
                 if (reached) then
                     reached = .false.
                     share = share + step
                     last = solution
                     last_closed(:) = closed
-                    if (step < 1.0_wp/least_compressions) step = 2*step
+                    step = 2*step
                 else
-                    step = min(step/2, 1.0_wp/least_compressions)
+                    step = step/2
                     if (step <= same_compression*max(share, least_share) .or. solves > most_solves_followed) exit
                 end if
             end do
@@ -233,6 +233,15 @@ contains
             call find_way_out(ground, last, share, start, gives_way)
             if (gives_way) exit
         end do
+        if (.not. (reached .or. share > 0.0_wp)) then
+            ! What bears none of them at all may be about to tip under its loads alone
+            closed(:) = first
+            call solve_on_ground(under_share(ground, 0.0_wp), detail, factor*(1 + little_compression), rule, closed, solution, &
+                                 outcome, error)
+            if (has_ended(error)) return
+            if (.not. allocated(error) .and. outcome%status == gapbeam_no_equilibrium) return
+            if (allocated(error)) deallocate (error)
+        end if
         solution%solves = solves
         solution%unique = .false.
         if (reached) then
@@ -327,55 +336,5 @@ contains
             call let_go(ground%beam%supports, last%deflection, last%reaction, little_compression, start%closed)
         end do
     end subroutine find_way_out
-
-    !> Are two states farther apart than one grows out of the other: by more than a part of the smaller one of them. Deflections
-    !> with slopes beside them, and moments with shears: one of them alone passes zero at all places looked at
-    pure function jumps(one, other, part) result(far)
-        type(ground_solution_type), intent(in) :: one, other
-        real(wp), intent(in) :: part
-        logical :: far
-        !> How far stretches bend under a force
-        real(wp) :: compliance(size(one%stretches))
-
-        if (size(one%ends) /= size(other%ends)) then
-            far = apart(one%deflection, other%deflection, 0.0_wp)
-            return
-        end if
-        compliance(:) = one%stretches%flexibility*one%stretches%length**2
-        far = apart(motion(one), motion(other), no_jump*maxval(compliance)*maxval(abs(forces(one))))
-        if (far .or. .not. any(compliance > 0.0_wp)) return
-        far = apart(forces(one), forces(other), no_jump/minval(compliance, compliance > 0.0_wp)*maxval(abs(motion(one))))
-
-    contains
-
-        !> Deflections, and rotations times lengths, at the ends of all stretches
-        pure function motion(solution) result(values)
-            type(ground_solution_type), intent(in) :: solution
-            real(wp) :: values(4*size(solution%ends))
-
-            associate (e => solution%ends, length => solution%stretches%length)
-                values(:) = [e%w_a, e%w_b, solution%rotation(1, :)*length, solution%rotation(2, :)*length]
-            end associate
-        end function motion
-
-        !> Moments, and shears times lengths, there
-        pure function forces(solution) result(values)
-            type(ground_solution_type), intent(in) :: solution
-            real(wp) :: values(4*size(solution%ends))
-
-            associate (e => solution%ends, length => solution%stretches%length)
-                values(:) = [e%moment_a, e%moment_b, solution%shear(1, :)*length, solution%shear(2, :)*length]
-            end associate
-        end function forces
-
-        !> Is a difference greater than the smaller one of two, and than what is rounding beside the other kind
-        pure function apart(a, b, rounding)
-            real(wp), intent(in) :: a(:), b(:), rounding
-            logical :: apart
-
-            apart = maxval(abs(a - b)) > max(rounding, part*min(maxval(abs(a)), maxval(abs(b))))
-        end function apart
-
-    end function jumps
 
 end module gapbeam_compressed
