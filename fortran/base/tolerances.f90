@@ -23,7 +23,7 @@ module gapbeam_tolerances
     public :: fine_rounding, near_motion, ground_fine_width, same_ratio_of_slopes, lost_digits, same_slope, touching_distance
     public :: same_extreme, rigid_noise, shortest_zone, same_level, rigid_places, fine_rigid_places, worst_shear_digits
     public :: largest_error_share, second_order, greatest_squared, smallest_squared, greatest_product, smallest_product, least_load
-    public :: unknown_movement, audit_unit, refined_rest, underflow_takes, cut_load_error
+    public :: unknown_movement, audit_unit, refined_rest, underflow_takes, cut_load_error, no_mode_value
 
     !> Rounding errors beyond which a sign counts. The estimates of rounding are sums of first order; 32 of them have never been
     !> exceeded by the attacks, and what lies within goes to quadruple precision, so that more would only cost time. Read by
@@ -118,14 +118,15 @@ module gapbeam_tolerances
     real(wp), parameter :: most_root_pieces = 1e6_wp
     !> A term of a Taylor series below this is the last: those that follow shrink. Read by beam/foundation_taylor
     real(wp), parameter :: taylor_tail = epsilon(1.0_wp)/16
-    !> A step of Newton's method below this, in parts of the stretch, is the last: rounding of the place. Read by
-    !> beam/foundation_zeros, cases/lane_roots
+    !> A step of Newton's method below this part of the stretch is the last. Read by beam/foundation_zeros, cases/lane_roots
     real(wp), parameter :: root_place = 2*epsilon(1.0_wp)
 
     !> Share by which lengths of equal steps may differ: rounding of the places of their ends. Read by beam/foundation_stretch
     real(wp), parameter :: same_length = 4*epsilon(1.0_wp)
     !> Width of a bracket of a mode beside its value, below the rounding of a double. Read by contact/mode_values
     real(wp), parameter :: mode_width = epsilon(1.0d0)/32
+    !> Value of a mode beside the first step below which it is 0: halving goes no farther. Read by contact/mode_values
+    real(wp), parameter :: no_mode_value = 1e-290_wp
     !> Part of a share of the axial forces to which is found when a beam buckles: rounding of states near there. Read by
     !> precision/compressed, precision/falling_way
     real(wp), parameter :: same_compression = 2.0_wp**(-44)
@@ -134,11 +135,10 @@ module gapbeam_tolerances
     !> Phase of a wave under compression along one piece from which on the share that a beam may bear at all is looked for first;
     !> tuned: shorter ones are cut into a few stretches. Read by precision/compressed
     real(wp), parameter :: long_compression = 4.0_wp
-    !> Share by which more of the axial forces are tried there, and of the greatest reaction that is hardly any; tuned: the last
+    !> Share by which more of the axial forces are tried there, and of the greatest force that is hardly any; tuned: the last
     !> state is nearer. Read by precision/compressed, precision/falling_ground, precision/unloaded_beam
     real(wp), parameter :: little_compression = 2.0_wp**(-14)
-    !> Share of a value of a mode by which it is off in double precision, mostly: brackets widen where it is more; tuned. Read by
-    !> contact/mode_values
+    !> Share by which a value of a mode is off in double precision, mostly; tuned. Read by contact/mode_values
     real(wp), parameter :: mode_digits = 2.0_wp**(-36)
 
     !

@@ -6,7 +6,7 @@
 module gapbeam_mode_values
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_halvings, most_asides
-    use gapbeam_tolerances, only: mode_digits, mode_width
+    use gapbeam_tolerances, only: mode_digits, mode_width, no_mode_value
     use gapbeam_band, only: log_determinant
     use gapbeam_piece, only: is_compressed
     use gapbeam_ground, only: ground_type, zones_type, grounded_type
@@ -37,7 +37,7 @@ contains
         integer, intent(in) :: what
         !> With which step to begin to look, above 0
         real(wp), intent(in) :: first
-        !> Those that there are, shape (number wanted)
+        !> Those that there are, shape (number wanted); 0 where the beam moves freely
         real(wp), intent(out) :: values(:)
         integer, intent(out) :: found
         !> Are there more that cannot be counted; not of those that crowd where shear itself gives way
@@ -47,15 +47,22 @@ contains
         type(counted_type) :: low, high
         real(wp) :: step, limit
         integer :: k, doubling
-        logical :: stopped
+        logical :: stopped, is_free
 
         found = 0
         stopped = .false.
         lost = .false.
         limit = greatest_value(ground, what)
         do k = 1, merge(size(near), size(values), present(near))
+            is_free = .not. high%value > 0.0_wp .and. high%number >= k
+            if (present(near)) is_free = .not. near(k) > 0.0_wp
+            if (is_free) then
+                values(k) = 0.0_wp
+                found = k
+                cycle
+            end if
             step = min(first, limit/2)
-            if (k > 1) step = low%value/2
+            if (low%value > 0.0_wp) step = low%value/2
             if (present(near)) then
                 step = mode_digits*near(k)
                 low%value = near(k) - step
@@ -84,6 +91,7 @@ contains
             lost = stopped .and. (what == by_vibration .or. .not. limit < huge(limit))
             if (stopped .or. doubling > most_halvings) return
             call narrow(ground, zones, acting, factor, what, k, merge(mode_width, mode_digits/4, present(near)), low, high, stopped)
+            if (high%value < first*no_mode_value) high%value = 0.0_wp
             values(k) = high%value
             found = k
             low = high

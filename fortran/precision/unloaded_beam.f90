@@ -78,7 +78,7 @@ contains
                 presses = .not. on_ground(at) .and. mode_presses(ground, shape, way)
                 if (.not. (presses .or. any(wrong))) then
                     leaves = .true.
-                    share = merge(value(1), 0.0_wp, value(1) > tiny(1.0_wp)/epsilon(1.0_wp))
+                    share = value(1)
                     mode = way*shape%deflection
                     start%closed(:) = closed(:, at)
                     best = zones

@@ -118,6 +118,8 @@ contains
         call refine_zones(fine, start%zones, zones)
         at = value
         if (what == by_vibration) at = at**2
+        ! What moves freely is close to its place under next to nothing
+        if (.not. at > 0.0_qp) at = epsilon(1.0_wp)*first_step(ground, what)
         call find_fine_shape(fine, zones, start%closed, real(start%factor, qp), what, at, parts, found)
         if (size(found%piece) == 0) then
             call fatal_error(error, gapbeam_bad_input, "modes: the stiffnesses of the beam are too far apart to tell a shape")

@@ -138,3 +138,24 @@ def test_what_has_no_modes(kind, count, words):
     made = scene([4.0], [{"node": 0}, {"node": 1}], [], EI=1.0, mass=1.0) | {"analysis": {"frequencies": 1}}
     with pytest.raises(ValueError, match=words):
         gapbeam.solve(made).steps[-1].modes(kind, count)
+
+
+GUIDED = {"node": 0, "rotation": "fixed", "stiffness": 0.0}
+
+
+@pytest.mark.parametrize(
+    ("supports", "loads", "hinges", "phases"),
+    [
+        # tan u + tanh u = 0 is guided at one end; cos u cosh u = 1 is free
+        ([GUIDED], [{"type": "moment", "node": 1, "M": 1.0}], [], (0.0, 2.365020372431352)),
+        ([], [{"type": "curvature", "kappa": 0.01}], [], (0.0, 0.0, 4.730040744862704, 7.853204624095838)),
+        ([{"x": 0.3, "side": "below"}], [], [1.3, 2.7, 3.5], (0.0, 0.0, 0.0, 0.0)),
+    ],
+)
+def test_beams_that_move_freely_have_frequencies_beyond_zero(supports, loads, hinges, phases):
+    beam = {"spans": [4.0], "EI": 100.0, "mass": 2.0, "hinges": hinges}
+    asked = {"beam": beam, "supports": supports, "loads": loads, "analysis": {"frequencies": len(phases)}}
+    result = gapbeam.solve(asked)
+    assert result.steps[-1].indifferent
+    assert result.frequencies == pytest.approx([(u / 4) ** 2 * math.sqrt(50) for u in phases], rel=1e-13)
+    assert all(np.abs(result.mode("vibration", i + 1).deflection).max() == 1 for i in range(len(phases)))
