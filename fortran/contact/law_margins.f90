@@ -112,20 +112,19 @@ contains
     end function is_watched_in
 
     !> Let supports go that hardly hold the beam any more, and laws on to a flatter piece that begins next to where they are
-    pure subroutine let_go(supports, deflection, reaction, share, closed)
+    pure subroutine let_go(supports, deflection, reaction, next_to_nothing, closed)
         type(node_support_type), intent(in) :: supports(:)
         !> At the nodes, shape (0:n); of the supports, shape (m)
         real(wp), intent(in) :: deflection(0:), reaction(:)
-        !> Part of the greatest reaction that is next to nothing
-        real(wp), intent(in) :: share
+        !> Force up to which a support hardly carries, or has hardly begun to
+        real(wp), intent(in) :: next_to_nothing
         !> The scheme, shape (m)
         logical, intent(inout) :: closed(:)
-        real(wp) :: none(size(supports)), next_to_nothing, margin, rounding
+        real(wp) :: none(size(supports)), margin, rounding
         logical :: now(size(closed)), by_force
         integer :: k
 
         none(:) = 0.0_wp
-        next_to_nothing = share*maxval(abs(reaction))
         now(:) = closed
         do k = 1, size(supports)
             if (.not. is_watched_in(supports, now, k)) cycle

@@ -333,7 +333,9 @@ contains
                              number, work, grounded, factor=last%factor)
             gives_way = number /= 0
             if (gives_way) return
-            call let_go(ground%beam%supports, last%deflection, last%reaction, little_compression, start%closed)
+            ! What bends the beam may leave all supports at once
+            call let_go(ground%beam%supports, last%deflection, last%reaction, &
+                        little_compression*max(maxval(abs(last%reaction)), maxval(abs(last%shear))), start%closed)
         end do
     end subroutine find_way_out
 

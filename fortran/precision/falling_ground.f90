@@ -234,7 +234,8 @@ contains
             call count_modes(steeper, state%zones, state%closed, by_axial_force, 1.0_wp, number, work, grounded, factor=last%factor)
             it_is = number > 0
             if (it_is) return
-            call let_go(ground%beam%supports, last%deflection, last%reaction, little_compression, state%closed)
+            call let_go(ground%beam%supports, last%deflection, last%reaction, &
+                        little_compression*maxval(abs(last%reaction)), state%closed)
         end do
     end function is_at_end
 

@@ -182,3 +182,16 @@ def test_huge_numbers_that_elimination_passes_on_are_refined_away(off):
     behind = [{**one, "node": 5 - one["node"]} for one in reversed(supports)]
     turned = scene(spans[::-1], behind, [loads[0], force(20.0 - 16.561054491466937, -8.0)], EI=1000.0, N=N[::-1])
     assert gapbeam.solve(turned).steps[-1].reaction[::-1] == pytest.approx(there.steps[-1].reaction, rel=1e-12)
+
+
+@pytest.mark.parametrize(("N", "status"), [(0.99, "solved"), (1.01, "buckles"), (3.0, "buckles")])
+def test_a_strut_whose_supports_all_cease_to_push_at_once(N, status):
+    """Couples m (1 + c k tan(kL/2)/P) and m on a strut whose left end a spring c turns: all of it bends as under m at that P."""
+    EI, L, P, c, m = 400.0, 8.0, 30.0, 120.0, -1.0
+    k = math.sqrt(P / EI)
+    left = m * (1 + c * k * math.tan(k * L / 2) / P)
+    loads = [{"type": "moment", "node": 0, "M": left}, {"type": "moment", "node": 1, "M": -m}]
+    result = gapbeam.solve(scene([L], [{"node": 0, "side": "below", "rotation": c}, at(1)], loads, EI=EI, N=-N * P))
+    assert result.status == status
+    if status == "buckles":
+        assert share_of(result) == pytest.approx(1 / N, rel=1e-5)
