@@ -67,8 +67,8 @@ contains
             if (allocated(solution%push)) sizes_of(i)%rotation = sizes_of(i)%rotation &
                 + sizes_of(i)%deflection/solution%stretches(i)%length
         end do
-        ! Rounding is passed on from stretch to stretch, that of what supports take at their places too
-        associate (s => sizes_of, n => least_of, taken => abs(solution%reaction))
+        ! Rounding is passed on from stretch to stretch, that of what supports take, or would where their curves bend, too
+        associate (s => sizes_of, n => least_of, taken => max(abs(solution%reaction), abs(ground%beam%supports%force)))
             n%deflection = n%deflection + lost_digits*maxval(s%deflection)
             n%rotation = n%rotation + lost_digits*maxval(s%rotation)
             n%moment = maxval(n%moment) + lost_digits*maxval([s%moment, whole*taken])

@@ -184,3 +184,23 @@ def test_the_picture_goes_where_the_load_goes():
     assert all(np.abs(points - (step.factor, step.reaction[0])).sum(axis=1).min() < 1e-12 for step in ends)
     assert all(min(abs(x - step.factor) + abs(y - step.reaction[0]) for step in ends) < 1e-12 for x, y in points)
     assert not any("contact" in one.get_ylabel() for one in axes)
+
+
+@pytest.mark.parametrize(
+    ("beam", "law", "place", "history"),
+    [
+        ({"spans": [1.0], "EI": 4000.0, "N": 52.41735509914854},
+         [[0.009895120171645996, 12.567765876441374], [0.019790240343291993, 17.27947510375549]], 1.0, [0.0, 1.0]),
+        ({"spans": [5.216879434275907, 1.2397936129075584, 3.661087391562813], "EI": 3000.0, "N": 75.97367410492672},
+         [[0.018572682558764556, 3.064731380114307], [0.03714536511752911, 3.442788985450506]], 10.0, [1.0, 0.0]),
+    ],
+)  # fmt: skip
+def test_without_loads_nothing_is_left_on_curves(beam, law, place, history):
+    """Forces are counted from where curves bend, and what cancels there is rounding beside no forces at all."""
+    ends = [{"node": 0, "law": law}, {"node": len(beam["spans"]), "stiffness": 0.0}]
+    if len(beam["spans"]) == 1:
+        ends[1]["rotation"] = {"law": [[0.001, 1.0], [0.003, 1.0]], "unloading": "plastic"}
+    result = gapbeam.solve({"beam": beam, "supports": ends, "loads": [{"type": "force", "x": place, "F": 0.1}],
+                            "analysis": {"follow": "events", "history": history}})  # fmt: skip
+    assert result.to_dict()["status"] == "solved"
+    assert abs(result.loop(0).reaction[0 if history[0] == 0.0 else -1]) < 1e-13
