@@ -2,7 +2,7 @@
 !>
 !> In first order bending does not feel the axial force, so the chain is a system of its own. While all links stay on their piece,
 !> displacements and forces are linear in the load factor: only their rates are solved for, in quadruple precision, and added up.
-!> A change is felt no farther than the nearest rigid links beside it: between them alone rates are found anew (find_reach), and all
+!> A change is felt no farther than the nearest rigid links beside it: rates are found anew between them (gapbeam_axial_reach), all
 !> else goes on by the rates it has (gapbeam_axial_progress).
 !> A friction support is a slider whose limit is its coefficient times the reaction across the beam, which is linear in the factor
 !> between the events of bending (Moreau's sweeping process): stuck it is rigid where it is, sliding it has the force of its limit.
@@ -12,10 +12,12 @@ module gapbeam_axial_chain
     use gapbeam_polyline_quad, only: node_support_type, last_breakpoint
     implicit none
     private
-    public :: chain_type, new_chain, choose_parts, find_piece, find_reach, next_change, plan, stays_at_rest, sticks, no_rate
+    public :: chain_type, new_chain, choose_parts, find_piece, next_change, plan, stays_at_rest, sticks, no_rate, no_way_yet
 
     !> Closed breakpoints of a friction support that sticks; one fewer where it slides to the left, one more to the right
     integer, parameter :: sticks = 1
+    !> Instead of where the link of a point slides: what pushes the point is to be found anew
+    integer, parameter :: no_way_yet = 2
     !> Rates and ways below these shares of the largest are rounding
     real(qp), parameter :: no_rate = 1e-26_qp, no_way = 1e-28_qp
 
@@ -67,6 +69,8 @@ module gapbeam_axial_chain
         logical, allocatable :: coarse(:), coarse_bar(:), slides(:)
         !> In double precision what values_of tells: values, rates, and the load at which they were so
         real(wp), allocatable :: value(:), rate(:), since(:)
+        !> Do loads act, or links move by themselves
+        logical :: driven = .true.
         !> Does nothing hold the chain, nor push it
         logical :: loose = .false.
         !> Linear solves
@@ -138,6 +142,8 @@ contains
 
         chain%by_parts = size(chain%flexibility) > short_chain_bars .and. .not. any(chain%keeps_set) &
             .and. .not. any(abs(chain%own_rate) > 0.0_qp)
+        chain%driven = any(abs(chain%load_rate) > 0.0_qp) .or. any(abs(chain%elongation_rate) > 0.0_qp) &
+            .or. any(abs(chain%own_rate) > 0.0_qp)
         call sum_up(chain%elongation_rate, chain%longer)
         chain%bar(2, :) = real(chain%elongation_rate, wp)
     end subroutine choose_parts
@@ -181,49 +187,9 @@ contains
         type(chain_type), intent(in) :: chain
         logical :: stays_at_rest
 
-        stays_at_rest = .not. (chain%loose .or. any(chain%keeps_set))
-        if (stays_at_rest) stays_at_rest = nothing(chain%load_rate) .and. nothing(chain%elongation_rate) &
-            .and. nothing(chain%own_rate) .and. nothing(chain%force)
-
-    contains
-
-        !> Are numbers all zero
-        pure logical function nothing(numbers)
-            real(qp), intent(in) :: numbers(:)
-
-            nothing = .not. any(abs(numbers) > 0.0_qp)
-        end function nothing
-
+        stays_at_rest = .not. (chain%loose .or. chain%driven .or. any(chain%keeps_set))
+        if (stays_at_rest) stays_at_rest = .not. any(abs(chain%force) > 0.0_qp)
     end function stays_at_rest
-
-    !> Points between which the rates change with the pieces of some links: as far as the nearest rigid links that stay
-    pure function find_reach(chain, links) result(reach)
-        type(chain_type), intent(in) :: chain
-        integer, intent(in) :: links(:)
-        integer :: reach(2), l
-
-        ! Laws that keep a set follow the beam wherever it goes, and what moves by itself takes friction along
-        reach = [0, size(chain%flexibility)]
-        if (chain%loose) return
-        if (.not. chain%by_parts) then
-            if (any(chain%keeps_set) .or. any(abs(chain%own_rate) > 0.0_qp)) return
-        end if
-        reach = reach([2, 1])
-        do l = 1, size(links)
-            associate (node => chain%laws(chain%first(links(l)))%node)
-                reach = [min(reach(1), node), max(reach(2), node)]
-            end associate
-        end do
-        reach = [max(0, reach(1) - 1), min(size(chain%flexibility), reach(2) + 1)]
-        do while (reach(1) > 0)
-            if (chain%holder(reach(1)) > 0) exit
-            reach(1) = reach(1) - 1
-        end do
-        do while (reach(2) < size(chain%flexibility))
-            if (chain%holder(reach(2)) > 0) exit
-            reach(2) = reach(2) + 1
-        end do
-    end function find_reach
 
     !> Slope of the piece on which a link is, and how many of its breakpoints are closed
     pure subroutine find_piece(chain, l, slope, count_closed)
@@ -244,18 +210,55 @@ contains
     end subroutine find_piece
 
     !> How far the load goes until links come to ends of their pieces, and which those are at once
-    pure subroutine next_change(chain, at_once, reach, way, links, steps)
+    pure subroutine next_change(chain, at_once, reaches, way, links, steps)
         type(chain_type), intent(inout) :: chain
         !> Is it the chain that moves, not the load
         logical, intent(in) :: at_once
-        !> Points between which rates or pieces are others than before
-        integer, intent(in) :: reach(2)
+        !> Parts in which rates or pieces are others than before, shape (2, *)
+        integer, intent(in) :: reaches(:, :)
         !> Of the load factor, or of the chain where it moves at once; huge where nothing comes
         real(qp), intent(out) :: way
         !> Links that come to such an end first, and the piece to which each goes: 1 on, -1 back
         integer, allocatable, intent(out) :: links(:), steps(:)
-        real(qp) :: share, first, near
+        real(qp) :: first, near
         real(wp) :: soonest
+        integer :: l, i, j
+
+        do i = 1, size(reaches, 2)
+            call find_scales(chain, at_once, reaches(:, i))
+        end do
+        do i = 1, size(reaches, 2)
+            do j = chain%first_at(reaches(1, i)), chain%first_at(reaches(2, i) + 1) - 1
+                if (.not. chain%slides(chain%in_order(j))) call find_due(chain, chain%in_order(j), at_once)
+            end do
+        end do
+        way = huge(way)
+        links = [integer ::]
+        steps = [integer ::]
+        soonest = huge(soonest)
+        do l = 1, size(chain%soon)
+            soonest = min(soonest, chain%soon(l))
+        end do
+        if (.not. soonest < huge(soonest)) return
+        do l = 1, size(chain%soon)
+            if (chain%soon(l) - soonest <= 4*epsilon(soonest)*abs(soonest)) links = [links, l]
+        end do
+        first = minval(chain%due(links))
+        way = max(0.0_qp, first - chain%clock)
+        ! Sums of the load round
+        near = first + no_way*max(abs(first), abs(chain%clock))
+        links = pack(links, chain%due(links) <= near)
+        steps = chain%goes(links)
+    end subroutine next_change
+
+    !> Largest rates of forces and of displacements, those of a part of the chain included
+    pure subroutine find_scales(chain, at_once, reach)
+        !> As for next_change
+        type(chain_type), intent(inout) :: chain
+        logical, intent(in) :: at_once
+        !> First and last point
+        integer, intent(in) :: reach(2)
+        real(qp) :: share
         integer :: l, j
 
         share = merge(0.0_qp, 1.0_qp, at_once)
@@ -271,23 +274,8 @@ contains
                 chain%force_scale = max(chain%force_scale, abs(chain%force_rate(l)), share*abs(chain%limit_rate(l)))
                 chain%place_scale = max(chain%place_scale, share*abs(chain%own_rate(l)))
             end do
-            do j = chain%first_at(a), chain%first_at(b + 1) - 1
-                if (.not. chain%slides(chain%in_order(j))) call find_due(chain, chain%in_order(j), at_once)
-            end do
         end associate
-        way = huge(way)
-        links = [integer ::]
-        steps = [integer ::]
-        if (.not. any(chain%soon < huge(soonest))) return
-        soonest = minval(chain%soon)
-        links = pack([(l, l=1, size(chain%soon))], chain%soon - soonest <= 4*epsilon(soonest)*abs(soonest))
-        first = minval(chain%due(links))
-        way = max(0.0_qp, first - chain%clock)
-        ! Sums of the load round
-        near = first + no_way*max(abs(first), abs(chain%clock))
-        links = pack(links, chain%due(links) <= near)
-        steps = chain%goes(links)
-    end subroutine next_change
+    end subroutine find_scales
 
     !> Note how far the load will be when the piece of a link ends
     pure subroutine plan(chain, l, due, goes)

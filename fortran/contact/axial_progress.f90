@@ -4,10 +4,11 @@
 module gapbeam_axial_progress
     use gapbeam_kinds, only: wp, qp
     use gapbeam_unloading_quad, only: rewrite_laws
-    use gapbeam_axial_chain, only: chain_type
+    use gapbeam_axial_chain, only: chain_type, no_way_yet
     implicit none
     private
-    public :: advance, change_pieces, settle, settle_link, note_rates, note_link, note_point, note_part, make_fine, values_of
+    public :: advance, change_pieces, change_limit, settle, settle_link, note_rates, note_link, note_point, note_part, make_fine
+    public :: values_of
 
 contains
 
@@ -68,6 +69,19 @@ contains
             end associate
         end do
     end subroutine change_pieces
+
+    !> Let the limit of a link that rubs have another rate from here on, its point settled: what pushes its point, and what the link
+    !> takes, are found anew with the rates of the chain
+    pure subroutine change_limit(chain, l, rate)
+        type(chain_type), intent(inout) :: chain
+        integer, intent(in) :: l
+        real(qp), intent(in) :: rate
+
+        call settle_link(chain, l)
+        chain%limit_rate(l) = rate
+        chain%slides(l) = .false.
+        chain%way(chain%laws(chain%first(l))%node) = no_way_yet
+    end subroutine change_limit
 
     !> Add up what has happened between two points since they were looked at; what is known in double precision goes on
     pure subroutine settle(chain, reach)

@@ -12,7 +12,7 @@ module gapbeam_axial_friction
     use gapbeam_path_states, only: solve_on_path
     implicit none
     private
-    public :: set_limits, find_reactions, drop_rounding, zeros_between
+    public :: set_limit, set_limits, goes_on_so, find_reactions, drop_rounding, zeros_between
 
 contains
 
@@ -23,18 +23,40 @@ contains
         integer :: l
 
         do l = 1, size(limit)
-            if (.not. chain%rubs(l)) cycle
-            associate (k => chain%first(l))
-                chain%laws(k)%force = -limit(l)
-                chain%laws(k + 1)%force = limit(l)
-                if (chain%closed(k) .eqv. chain%closed(k + 1)) then
-                    chain%force(l) = merge(limit(l), -limit(l), chain%closed(k))
-                else
-                    chain%force(l) = max(-limit(l), min(limit(l), chain%force(l)))
-                end if
-            end associate
+            if (chain%rubs(l)) call set_limit(chain, l, limit(l))
         end do
     end subroutine set_limits
+
+    !> The same for one link that rubs
+    pure subroutine set_limit(chain, l, limit)
+        type(chain_type), intent(inout) :: chain
+        integer, intent(in) :: l
+        real(qp), intent(in) :: limit
+
+        associate (k => chain%first(l))
+            chain%laws(k)%force = -limit
+            chain%laws(k + 1)%force = limit
+            if (chain%closed(k) .eqv. chain%closed(k + 1)) then
+                chain%force(l) = merge(limit, -limit, chain%closed(k))
+            else
+                chain%force(l) = max(-limit, min(limit, chain%force(l)))
+            end if
+        end associate
+    end subroutine set_limit
+
+    !> Does the limit of a link go on as it should, but for rounding; one that is nothing, or comes to that, is to be just that
+    pure function goes_on_so(chain, l, limit, rate, way, rounding) result(it_does)
+        type(chain_type), intent(in) :: chain
+        integer, intent(in) :: l
+        !> Limit and rate as they should be, how far, and rounding of limit and rate
+        real(qp), intent(in) :: limit, rate, way
+        real(wp), intent(in) :: rounding(2)
+        logical :: it_does
+        real(qp) :: now(2)
+
+        now(:) = [chain%laws(chain%last(l))%force + (chain%clock - chain%since_link(l))*chain%limit_rate(l), chain%limit_rate(l)]
+        it_does = all(abs(now - [limit, rate]) <= merge(rounding, 0.0_wp, limit + way*rate > rounding(1)))
+    end function goes_on_so
 
     !> Reactions across the beam of the supports that rub, in units of the axial system
     subroutine find_reactions(beam, history, k, factor, support, rubs, reaction, error)

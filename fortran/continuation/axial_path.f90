@@ -6,8 +6,12 @@ module gapbeam_axial_path
     use gapbeam_words, only: shown
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_axial_chain, only: stays_at_rest
+    use gapbeam_axial_reach, only: find_reaches
+    use gapbeam_axial_progress, only: settle, change_limit
     use gapbeam_axial_walk, only: chain_walk_type, begin_walk, set_loads, go_to, begin_stretch, numbers_of
-    use gapbeam_axial_friction, only: set_limits, find_reactions, drop_rounding, zeros_between
+    use gapbeam_axial_friction, only: set_limit, set_limits, goes_on_so, find_reactions, drop_rounding, zeros_between
+    use gapbeam_friction_limits, only: friction_limits_type, go_by_reactions, new_limits, take_lines, find_sizes, find_limits, &
+        find_let_go
     use gapbeam_history_stretch, only: stretch_type, nothing_changes
     use gapbeam_history_record, only: history_type, limit_type, new_history, add_stretch, add_column, mechanism, no_limit, cut_off
     implicit none
@@ -19,6 +23,15 @@ module gapbeam_axial_path
         !> The stretch of bending at hand; is a part of it kept
         type(stretch_type) :: bending
         logical :: begun = .false.
+        !> Leg whose loads are set, and 1 where they rise, -1 where they fall
+        integer :: leg = -1
+        real(wp) :: way = 0.0_wp
+        !> Does the chain stay at rest under them
+        logical :: rests = .false.
+        !> Are limits of friction found by lines of reactions; these; have they been on the last stretch
+        logical :: by_reactions = .false.
+        type(friction_limits_type) :: limits
+        logical :: follows = .false.
         !> The path as it becomes, and its most stretches
         type(history_type) :: path
         integer :: most = 0
@@ -48,6 +61,8 @@ contains
         allocate (walk%path%along)
         allocate (walk%path%along%support, source=walk%support)
         allocate (walk%path%along%columns(16))
+        walk%by_reactions = go_by_reactions(assembled)
+        if (walk%by_reactions) call new_limits(assembled, walk%support, walk%chain%rubs, walk%limits)
         first(:) = 1
         last(:) = 0
         do k = 1, history%number
@@ -78,13 +93,16 @@ contains
         type(history_type), intent(in), target :: history
         integer, intent(in) :: k
         type(error_type), allocatable, intent(out) :: error
-        real(qp) :: from_limit(size(walk%support)), to_limit(size(walk%support)), at
-        real(qp), allocatable :: ends(:)
-        real(wp) :: from_force(size(walk%support)), to_force(size(walk%support))
-        integer :: i
+        integer, allocatable :: changed(:)
+        real(wp) :: way
+        logical :: follows, told
 
         walk%bending = history%stretches(k)
+        follows = walk%follows
+        walk%follows = .false.
+        walk%goes_on = .false.
         associate (s => history%stretches(k), chain => walk%chain)
+            if (walk%by_reactions) call take_lines(walk%limits, s%pressed, s%reactions, changed)
             if (s%skipped .or. .not. abs(s%to - s%from) > 0.0_wp) then
                 if (s%skipped .and. any(chain%rubs)) then
                     call fatal_error(error, gapbeam_bad_input, "friction = "//trim(shown(assembled%model%supports( &
@@ -97,11 +115,121 @@ contains
                 call walk%keep(assembled, s%from, s%to, error)
                 return
             end if
-            call set_loads(assembled, s%leg, sign(1.0_wp, s%to - s%from), walk)
-            if (walk%path%number > 0 .and. stays_at_rest(chain)) then
-                call walk%keep(assembled, s%from, s%to, error)
-                return
+            way = sign(1.0_wp, s%to - s%from)
+            if (s%leg /= walk%leg .or. abs(way - walk%way) > 0.0_wp) then
+                call set_loads(assembled, s%leg, way, walk)
+                walk%leg = s%leg
+                walk%way = way
+                walk%rests = .false.
+                follows = .false.
             end if
+            if (walk%path%number > 0 .and. .not. (follows .and. chain%driven)) then
+                if (.not. walk%rests) walk%rests = stays_at_rest(chain)
+                if (walk%rests) then
+                    call walk%keep(assembled, s%from, s%to, error)
+                    return
+                end if
+            end if
+            told = .false.
+            if (walk%by_reactions .and. chain%by_parts) then
+                if (walk%limits%known) call pass_by_reactions(walk, assembled, history, k, follows, changed, told, error)
+            end if
+            if (.not. told) call pass_by_states(walk, assembled, beam, history, k, error)
+            if (.not. walk%lost) return
+            walk%path%ending = mechanism
+            walk%path%limits = [limit_type(mechanism, s%leg, walk%lost_at, walk%path%number)]
+        end associate
+    end subroutine pass_stretch
+
+    !> Go along a stretch whose reactions are known as lines: where these are as they were links go on as they did
+    subroutine pass_by_reactions(walk, assembled, history, k, follows, changed, told, error)
+        !> As for pass_stretch
+        type(walk_type), intent(inout) :: walk
+        type(assembled_type), intent(in) :: assembled
+        type(history_type), intent(in) :: history
+        integer, intent(in) :: k
+        !> Do limits come from the stretch before; links whose lines are others there
+        logical, intent(in) :: follows
+        integer, intent(in) :: changed(:)
+        !> If not, nothing is done
+        logical, intent(out) :: told
+        type(error_type), allocatable, intent(out) :: error
+        integer, allocatable :: links(:), reaches(:, :)
+        real(qp), allocatable :: limit(:), rate(:)
+        logical, allocatable :: others(:)
+        integer :: i
+        logical :: partly
+
+        associate (s => history%stretches(k), chain => walk%chain)
+            walk%goes_on = .false.
+            if (k < history%number) walk%goes_on = goes_on_to(history%stretches(k + 1))
+            partly = follows
+            if (partly) then
+                if (walk%goes_on) then
+                    call find_let_go(walk%limits, s%to, links, history%stretches(k + 1)%pressed, history%stretches(k + 1)%reactions)
+                else
+                    call find_let_go(walk%limits, s%to, links)
+                end if
+                links = [changed, pack(links, [(.not. any(changed == links(i)), i=1, size(links))])]
+                call find_limits(walk%limits, links, s%from, s%to, limit, rate, partly)
+            end if
+            if (.not. partly) then
+                links = pack([(i, i=1, size(chain%rubs))], chain%rubs)
+                call find_sizes(walk%limits, s%from, s%to)
+                call find_limits(walk%limits, links, s%from, s%to, limit, rate, told)
+                if (.not. told) return
+            end if
+            told = .true.
+            allocate (others(size(links)), source=.true.)
+            if (partly) others(:) = [(.not. goes_on_so(chain, links(i), limit(i), rate(i), abs(real(s%to, qp) - s%from), &
+                                                       walk%limits%rounding(links(i))), i=1, size(links))]
+            if (partly) then
+                reaches = find_reaches(chain, pack(links, others))
+            else
+                reaches = reshape([0, size(chain%flexibility)], [2, 1])
+            end if
+            do i = 1, size(reaches, 2)
+                call settle(chain, reaches(:, i))
+            end do
+            do i = 1, size(links)
+                if (.not. others(i)) cycle
+                call change_limit(chain, links(i), rate(i))
+                call set_limit(chain, links(i), limit(i))
+            end do
+            walk%follows = .true.
+            chain%anew = .not. partly
+            call go_to(walk, assembled, real(s%from, qp), real(s%to, qp), error, reaches)
+        end associate
+
+    contains
+
+        !> Does a stretch follow whose lines are known beside those of this one
+        pure function goes_on_to(next) result(it_does)
+            type(stretch_type), intent(in) :: next
+            logical :: it_does
+
+            it_does = next%leg == walk%leg .and. allocated(next%pressed) .and. .not. next%skipped &
+                .and. walk%way*(next%to - next%from) > 0.0_wp
+        end function goes_on_to
+
+    end subroutine pass_by_reactions
+
+    !> Go along a stretch by the reactions of the states at its ends
+    subroutine pass_by_states(walk, assembled, beam, history, k, error)
+        !> As for pass_stretch
+        type(walk_type), intent(inout) :: walk
+        type(assembled_type), intent(in) :: assembled
+        type(assembled_type), intent(in), target :: beam
+        type(history_type), intent(in), target :: history
+        integer, intent(in) :: k
+        type(error_type), allocatable, intent(out) :: error
+        real(qp) :: from_limit(size(walk%support)), to_limit(size(walk%support)), at
+        real(qp), allocatable :: ends(:)
+        real(wp) :: from_force(size(walk%support)), to_force(size(walk%support))
+        integer :: i
+
+        associate (s => history%stretches(k), chain => walk%chain)
+            if (walk%by_reactions) call settle(chain, [0, size(chain%flexibility)])
             ends = [real(s%to, qp)]
             if (any(chain%rubs)) then
                 call find_reactions(beam, history, k, s%from, walk%support, chain%rubs, from_force, error)
@@ -121,10 +249,6 @@ contains
                     if (abs(ends(i) - at) > 0.0_qp) chain%limit_rate(:) = (to_limit - from_limit)/abs(ends(i) - at)
                 end if
                 call go_to(walk, assembled, at, ends(i), error)
-                if (walk%lost) then
-                    walk%path%ending = mechanism
-                    walk%path%limits = [limit_type(mechanism, s%leg, walk%lost_at, walk%path%number)]
-                end if
                 if (allocated(error) .or. walk%lost .or. walk%full) return
                 if (any(chain%rubs)) call set_limits(chain, to_limit)
                 at = ends(i)
@@ -146,7 +270,7 @@ contains
             end associate
         end subroutine limits_at
 
-    end subroutine pass_stretch
+    end subroutine pass_by_states
 
     !> Keep a stretch of the path, and the numbers of the chain at its ends
     subroutine keep(walk, assembled, from, to, error)
@@ -163,6 +287,7 @@ contains
             return
         end if
         kept = walk%bending
+        if (allocated(kept%pressed)) deallocate (kept%pressed, kept%reactions)
         if (walk%begun) call nothing_changes(kept)
         walk%begun = .true.
         kept%from = from + 0.0_wp

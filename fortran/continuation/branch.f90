@@ -19,13 +19,13 @@ module gapbeam_branch
     use gapbeam_affine_response_quad, only: value_at, width_at, zero_of
     use gapbeam_region_responses, only: outgoing_type, new_responses, solve_responses, are_one, turn, rise, fall, from_nowhere
     use gapbeam_outgoing_directions, only: find_outgoing
+    use gapbeam_stretch, only: tell_reactions
     use gapbeam_local_step, only: new_local, enter_local, find_next, pass_breakpoints, take_direction, local_index, &
         clear_arrival, doubtful
     use gapbeam_branch_state, only: branch_type, note_place, break_supports, find_shared, sense_of, laws_of, parallel, stays_broken
     implicit none
     private
-    public :: branch_type, segment_type, start_branch, step_branch, goes_on, arrived, no_way_on, never_ends, not_told
-    public :: laws_of
+    public :: branch_type, segment_type, start_branch, step_branch, laws_of, goes_on, arrived, no_way_on, never_ends, not_told
 
     !> What a step came to: the next breakpoint; the factor asked for; the end of the path; no further breakpoint, whatever the
     !> load; supports of which nothing tells how they share a change of load
@@ -144,6 +144,7 @@ contains
                 call enter_local(branch%beam%supports, way%closed, branch%factor, way%direction, local)
                 if (.not. local%current) return
             end if
+            call tell_reactions(local%beam, local%stretch)
             call find_next(local, way%closed, real(branch%factor, dp), real(target, dp), &
                            way%direction == leg .and. abs(target) < huge(target), next, numbers, found)
             segment%from = branch%factor

@@ -21,6 +21,8 @@ module gapbeam_history
     use gapbeam_assembled_model, only: assembled_type, growth_of, point_x
     use gapbeam_history_start, only: find_beginning, find_movements, has_dead_loads, has_dead_along, find_rest
     use gapbeam_history_stretch, only: stretch_type, pieces_type, keep_pieces, enter_stretch
+    use gapbeam_stretch, only: take_reactions
+    use gapbeam_friction_limits, only: go_by_reactions
     use gapbeam_history_record, only: history_type, limit_type, new_history, add_stretch, add_others, note_limit, note_landings, &
         is_jumping, at_limit_stop, at_limit_jump, at_limit_follow, no_limit, limit_point, bifurcation, mechanism, ended, cut_off
     implicit none
@@ -37,6 +39,8 @@ module gapbeam_history
         integer, allocatable :: node(:)
         integer, allocatable :: unloading(:)
         logical :: keeps = .false.
+        !> Are reactions told for friction
+        logical :: tells = .false.
         !> Stretches after which it is cut off
         integer :: most = 0
         !> Scheme and laws as they have become; how fast supports move themselves with the factor, shape (size(supports))
@@ -123,6 +127,7 @@ contains
         end associate
         walk%unloading(:) = assembled%model%supports(assembled%normal)%unloading
         walk%keeps = any(walk%unloading /= gapbeam_elastic)
+        walk%tells = go_by_reactions(assembled)
         call find_rest(assembled, walk%closed)
         call find_movements(assembled, walk%settling)
     end subroutine new_walk
@@ -202,6 +207,7 @@ contains
                              "hold that part, give its supports no gap or slack, or take steps where supports only move")
         end if
         walk%branch%rounded_places = rounded_places
+        if (walk%tells) allocate (walk%branch%local%stretch%touched(2, 0))
         ! On the polylines of smooth laws, equal ones soften all but together: which goes first is told by all digits only
         if (walk%branch%local%may_fall .and. any(is_smooth(walk%assembled%model%supports%law))) walk%branch%local%usable = .false.
         if (allocated(walk%assembled%beam%turning)) walk%branch%local%usable = .false.
@@ -245,6 +251,7 @@ contains
             stretch%from = real(segment%from, wp) + 0.0_wp
             stretch%to = real(segment%to, wp) + 0.0_wp
             moves = direction == turn .or. abs(stretch%to - stretch%from) > 0.0_wp
+            call take_reactions(branch%local%stretch, moves .and. outcome /= never_ends, stretch%pressed, stretch%reactions)
             walk%idle = merge(0, walk%idle + 1, moves)
             if (walk%idle > 4*size(walk%closed) + most_idle_segments) then
                 call fatal_error(error, gapbeam_not_converged, "the path does not leave load factor "// &

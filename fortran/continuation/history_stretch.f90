@@ -26,6 +26,10 @@ module gapbeam_history_stretch
         !> Of these, or of all: the scheme; the laws as they have become, where they are not those of the beam
         logical, allocatable :: closed(:)
         type(node_support_type), allocatable :: laws(:)
+        !> Where friction is to be followed beside it: breakpoints whose reactions have other lines over the load factor than on the
+        !> stretch before, and these: at factor 0, and by a unit of it, shape (2, size(pressed)); none where they are not known
+        integer, allocatable :: pressed(:)
+        real(wp), allocatable :: reactions(:, :)
         !> Of links along the beam: their scheme, and which numbers of the chain are at the ends
         logical, allocatable :: along(:)
         integer :: ends(2) = 0
@@ -110,6 +114,8 @@ contains
         call move_alloc(from%changed, to%changed)
         call move_alloc(from%closed, to%closed)
         call move_alloc(from%laws, to%laws)
+        call move_alloc(from%pressed, to%pressed)
+        call move_alloc(from%reactions, to%reactions)
         call move_alloc(from%along, to%along)
         call move_alloc(from%along_contact, to%along_contact)
         to%whole = from%whole

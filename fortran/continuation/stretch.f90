@@ -17,7 +17,7 @@ module gapbeam_stretch
     implicit none
     private
     public :: stretch_type, new_stretch, start_stretch, change_supports, queue_all, add_those_at_zero, next_in_queue
-    public :: response_in, unloads_from_here
+    public :: response_in, unloads_from_here, tell_reactions, take_reactions
 
     !> What is known on a stretch of the path. Where the load falls, factors and lines are those of its negative
     type, extends(lines_type) :: stretch_type
@@ -46,6 +46,13 @@ module gapbeam_stretch
         logical :: in_doubt = .false., closely = .false.
         !> Stretches on which the beam stays free to move
         integer :: indifferent = 0
+        !> First and last nodes between which reactions have other lines than were taken last, shape (2, *), and how many of these
+        !> windows are told; not allocated where nobody asks
+        integer, allocatable :: touched(:, :)
+        integer :: told = 0
+        !> What is told: breakpoints there, and their reactions at factor 0 and by a unit of the factor, shape (2, size(pressed))
+        integer, allocatable :: pressed(:)
+        real(wp), allocatable :: reactions(:, :)
     end type stretch_type
 
 contains
@@ -78,6 +85,9 @@ contains
         if (solved) stretch%current = follows .and. live_follows
         if (.not. stretch%current) return
         call queue_all(beam, closed, factor, stretch)
+        if (.not. allocated(stretch%touched)) return
+        stretch%touched = reshape([0, size(beam%links)], [2, 1])
+        stretch%told = 0
     end subroutine start_stretch
 
     !> Put all supports into the queue
@@ -116,11 +126,50 @@ contains
             if (.not. stretch%current) return
             window = [min(window(1), window_of_live(1)), max(window(2), window_of_live(2))]
             stretch%nodes = stretch%nodes + window(2) - window(1) + 1
+            if (allocated(stretch%touched)) stretch%touched = reshape([stretch%touched, window], [2, size(stretch%touched, 2) + 1])
             do i = beam%first(window(1)), beam%first(window(2) + 1) - 1
                 call queue_support(beam, closed, beam%order(i), factor, stretch)
             end do
         end do
     end subroutine change_supports
+
+    !> Tell how reactions grow with the load factor where that is not taken yet
+    pure subroutine tell_reactions(beam, stretch)
+        type(beam_type), intent(in) :: beam
+        !> Current
+        type(stretch_type), intent(inout) :: stretch
+        integer :: i
+
+        if (.not. allocated(stretch%touched)) return
+        stretch%told = size(stretch%touched, 2)
+        stretch%pressed = [integer ::]
+        do i = 1, stretch%told
+            associate (first => beam%first(stretch%touched(1, i)), last => beam%first(stretch%touched(2, i) + 1) - 1)
+                stretch%pressed = [stretch%pressed, beam%order(first:last)]
+            end associate
+        end do
+        stretch%reactions = transpose(reshape([stretch%dead%reaction(stretch%pressed), stretch%live%reaction(stretch%pressed)], &
+                                              [size(stretch%pressed), 2]))
+    end subroutine tell_reactions
+
+    !> Take what is told, or leave it for the next time
+    pure subroutine take_reactions(stretch, taken, pressed, reactions)
+        type(stretch_type), intent(inout) :: stretch
+        logical, intent(in) :: taken
+        !> As in stretch_type; not allocated where nothing is told
+        integer, allocatable, intent(inout) :: pressed(:)
+        real(wp), allocatable, intent(inout) :: reactions(:, :)
+
+        if (.not. allocated(stretch%pressed)) return
+        if (taken) then
+            call move_alloc(stretch%pressed, pressed)
+            call move_alloc(stretch%reactions, reactions)
+            stretch%touched = stretch%touched(:, stretch%told + 1:)
+        else
+            deallocate (stretch%pressed, stretch%reactions)
+        end if
+        stretch%told = 0
+    end subroutine take_reactions
 
     !> Reaction or opening of a support over the load factor
     pure function response_in(beam, closed, k, stretch) result(response)

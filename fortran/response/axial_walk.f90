@@ -10,9 +10,10 @@ module gapbeam_axial_walk
     use gapbeam_polyline_quad, only: node_support_type
     use gapbeam_scene, only: gapbeam_elastic
     use gapbeam_assembled_model, only: assembled_type, point_x
-    use gapbeam_axial_chain, only: chain_type, new_chain, choose_parts, next_change, find_reach
+    use gapbeam_axial_chain, only: chain_type, new_chain, choose_parts, next_change
+    use gapbeam_axial_reach, only: find_reaches
     use gapbeam_axial_progress, only: advance, change_pieces, settle, settle_link, note_rates, values_of
-    use gapbeam_axial_rates, only: moves_at_once, not_told
+    use gapbeam_axial_rates, only: moves_on, moves_at_once, not_told
     use gapbeam_axial_slip, only: find_rates_by_parts
     implicit none
     private
@@ -36,6 +37,8 @@ module gapbeam_axial_walk
         integer :: idle = 0
         !> Does the chain move without end, and at which load factor; is enough kept
         logical :: lost = .false., full = .false.
+        !> Does it go on from the end of go_to, where not all of it has to be added up then
+        logical :: goes_on = .false.
         real(wp) :: lost_at = 0.0_wp
     contains
         procedure(keep_interface), deferred :: keep
@@ -129,38 +132,39 @@ contains
     end subroutine set_loads
 
     !> Go from one load factor to another, limits of friction being linear between them
-    subroutine go_to(walk, assembled, from, to, error)
+    subroutine go_to(walk, assembled, from, to, error, others)
         !> With the rates of the loads
         class(chain_walk_type), intent(inout) :: walk
         type(assembled_type), intent(in) :: assembled
         real(qp), intent(in) :: from, to
         !> Two rigid links whose forces cannot be told apart, a load factor that is not left, or no memory
         type(error_type), allocatable, intent(out) :: error
-        integer, allocatable :: links(:), steps(:)
+        !> Parts of the chain outside which it goes on by the rates it has, shape (2, *) (gapbeam_axial_reach); if absent, all rates
+        !> are found anew
+        integer, intent(in), optional :: others(:, :)
+        integer, allocatable :: links(:), steps(:), reaches(:, :)
         real(qp) :: at, way
-        integer :: outcome, place, single, whole(2), reach(2), i
-        logical :: dragged
+        integer :: outcome, place, single, whole(2, 1), i
 
         at = from
-        whole = [0, size(walk%chain%flexibility)]
-        reach = whole
+        whole(:, 1) = [0, size(walk%chain%flexibility)]
+        reaches = whole
         walk%idle = 0
-        walk%chain%anew = .true.
+        if (present(others)) then
+            reaches = others
+        else
+            walk%chain%anew = .true.
+        end if
         do
             call end_if_stopped(assembled%beam%watch, error)
             if (allocated(error)) return
-            dragged = .true.
-            do while (dragged)
-                call find_rates_by_parts(walk%chain, reach, outcome, place, dragged)
-                if (outcome == not_told) exit
-            end do
-            call note_rates(walk%chain, reach)
+            call find_rates_in(walk%chain, reaches, outcome, place)
             call begin_stretch(walk, assembled)
             if (outcome == not_told) then
                 call refuse_shared(assembled, walk%support(place), real(at, wp), error)
                 return
             end if
-            call next_change(walk%chain, outcome == moves_at_once, reach, way, links, steps)
+            call next_change(walk%chain, outcome == moves_at_once, reaches, way, links, steps)
             ! Where a limit and what it holds vanish together, rounding is no motion
             if (outcome == moves_at_once .and. abs(to - at) <= no_way_left*abs(to - from)) return
             if (outcome == moves_at_once) then
@@ -192,9 +196,11 @@ contains
             end if
             single = size(links)
             if (walk%idle > rounds_at_once) single = 1
-            reach = whole
-            if (outcome /= moves_at_once) reach = find_reach(walk%chain, links(:single))
-            call settle(walk%chain, reach)
+            reaches = whole
+            if (outcome /= moves_at_once) reaches = find_reaches(walk%chain, links(:single))
+            do i = 1, size(reaches, 2)
+                call settle(walk%chain, reaches(:, i))
+            end do
             do i = 1, single
                 call settle_link(walk%chain, links(i))
             end do
@@ -211,16 +217,38 @@ contains
             begin = real(at, wp)
             end = real(next, wp)
             call advance(walk%chain, abs(next - at), .false.)
-            if (.not. abs(to - next) > 0.0_qp) then
+            if (.not. (abs(to - next) > 0.0_qp .or. walk%goes_on)) then
                 ! At the end all digits are those of quadruple precision
-                call settle(walk%chain, whole)
-                call note_rates(walk%chain, whole)
+                call settle(walk%chain, whole(:, 1))
+                call note_rates(walk%chain, whole(:, 1))
             end if
             if (abs(end - begin) > 0.0_wp) call walk%keep(assembled, begin, end, error)
             at = next
         end subroutine go_on
 
     end subroutine go_to
+
+    !> Find rates in parts of the chain, and note them
+    subroutine find_rates_in(chain, reaches, outcome, place)
+        type(chain_type), intent(inout) :: chain
+        !> First and last points, shape (2, *)
+        integer, intent(in) :: reaches(:, :)
+        !> As for find_rates_by_parts
+        integer, intent(out) :: outcome, place
+        integer :: i
+        logical :: dragged
+
+        outcome = moves_on
+        do i = 1, size(reaches, 2)
+            dragged = .true.
+            do while (dragged)
+                call find_rates_by_parts(chain, reaches(:, i), outcome, place, dragged)
+                if (outcome == not_told) exit
+            end do
+            call note_rates(chain, reaches(:, i))
+            if (outcome /= moves_on) return
+        end do
+    end subroutine find_rates_in
 
     !> Begin a stretch: the numbers of the chain, and where laws that keep a set have gone, dead movements of supports included
     pure subroutine begin_stretch(walk, assembled)

@@ -36,6 +36,10 @@ if TYPE_CHECKING:
     from ..state.step import Step
 
 
+# Schemes whose stretches are kept, to be used again
+MOST_KNOWN = 64
+
+
 class Struts:
     """The stretches of a beam that may buckle.
 
@@ -50,12 +54,12 @@ class Struts:
         self.beam, self.x, self.EI = beam, places.point_x, places.pieces[:, 1]
         self._support_points = places.node_points[places.support_nodes]
         self._carries = beam.columns.support[1, beam.numbers] > 0.0
-        self._hinges = set(places.node_points[places.kinds == 1].tolist())
+        self._hinges = np.zeros(len(self.x), bool)
+        self._hinges[places.node_points[places.kinds == 1]] = True
         # An elastic one counts as one that turns freely: on the safe side
-        elastic = beam.columns.hinge[0, :-1][beam.columns.hinge[1, :-1] > 0.0]
-        self._hinges |= {int(np.abs(places.point_x - x).argmin()) for x in elastic.tolist()}
-        self._known: dict[tuple[bytes, ...], list[tuple[int, int, float]]] = {}
-        self._columns: dict[int, tuple[np.ndarray, ...]] = {}
+        for x in beam.columns.hinge[0, :-1][beam.columns.hinge[1, :-1] > 0.0].tolist():
+            self._hinges[np.abs(places.point_x - x).argmin()] = True
+        self._known: dict[tuple[bytes, ...], tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
 
     def acting(self, closed: np.ndarray, breakpoints: np.ndarray | None = None) -> np.ndarray:
         """Tell which supports of the engine belong to one of the scene that resists: what yields or is broken does not."""
@@ -64,8 +68,10 @@ class Struts:
             acts[group] = piece_of(beam, number, closed, beam.breakpoints if breakpoints is None else breakpoints).slope > 0.0
         return acts
 
-    def stretches(self, closed: np.ndarray, breakpoints: np.ndarray | None = None) -> list[tuple[int, int, float]]:
-        """Give first and last point and the length L of the stretches in a scheme.
+    def stretches(
+        self, closed: np.ndarray, breakpoints: np.ndarray | None = None
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Give first points, last points and lengths L of the stretches in a scheme.
 
         Parameters
         ----------
@@ -76,11 +82,16 @@ class Struts:
         """
         key = closed.tobytes(), b"" if breakpoints is None else breakpoints.tobytes()
         if key not in self._known:
-            held = set(self._support_points[self.acting(closed, breakpoints)].tolist())
-            self._known[key] = [
-                (a, b, float(self.x[b] - self.x[a]) * (1.0 if {a, b} <= held or {a, b} <= self._hinges - held else 2.0))
-                for a, b in pairwise(sorted({0, len(self.x) - 1} | self._hinges | held))
-            ]
+            if len(self._known) >= MOST_KNOWN:
+                self._known.clear()
+            held = np.zeros(len(self.x), bool)
+            held[self._support_points[self.acting(closed, breakpoints)]] = True
+            ends = held | self._hinges
+            ends[[0, -1]] = True
+            hinged, (points,) = self._hinges & ~held, np.nonzero(ends)
+            first, last = points[:-1], points[1:]
+            both = (held[first] & held[last]) | (hinged[first] & hinged[last])
+            self._known[key] = first, last, (self.x[last] - self.x[first]) * np.where(both, 1.0, 2.0)
         return self._known[key]
 
     def largest(
@@ -112,7 +123,7 @@ class Struts:
         follows = (force > 0.0) & overhangs
         largest = np.argmax(np.where(follows, 0.0, ratio), keepdims=True)
         for k in np.union1d(np.flatnonzero(follows), largest[force[largest] > 0.0]).tolist():
-            a, b, one = self._compressed(*stretches[k], tension)
+            a, b, one = self._compressed(*(column[k].item() for column in stretches), tension)
             found = larger(found, self._beside(float(force[k]), euler(float(EI[a:b].min()), one), self.x[a], self.x[b], one))
         return found
 
@@ -140,12 +151,10 @@ class Struts:
         return np.flatnonzero(wanted).tolist()
 
     def _beside_euler(
-        self, stretches: list[tuple[int, int, float]], tension: np.ndarray, EI: np.ndarray
+        self, stretches: tuple[np.ndarray, np.ndarray, np.ndarray], tension: np.ndarray, EI: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Compression of stretches, their Euler loads, and which of them overhang, so that their length follows from it."""
-        if id(stretches) not in self._columns:  # kept as long as the stretches are
-            self._columns[id(stretches)] = tuple(np.array(column) for column in zip(*stretches, strict=True))
-        first, last, length = self._columns[id(stretches)]
+        first, last, length = stretches
         if len(first) < len(EI):
             EI, tension = np.minimum.reduceat(EI, first), np.minimum.reduceat(tension, first, axis=-1)
         with np.errstate(all="ignore"):
@@ -202,9 +211,9 @@ class GroundStruts(Struts):
             and any(modulus(under, zone.state, pressure, (x, x), float(self.x[-1])) > 0.0 for x in _places(zone, under))
         ]
         closed, end, x = step.solution.closed, float(self.x[-1]), self.x
-        supported = self.stretches(closed)
+        supported = [tuple(one) for one in zip(*(column.tolist() for column in self.stretches(closed)), strict=True)]
         held = set(x[self._support_points[self.acting(closed)]].tolist()) | {at for zone in zones for at in zone[:2]}
-        hinges, found = set(x[list(self._hinges)].tolist()), None
+        hinges, found = set(x[self._hinges].tolist()), None
         for start, stop in pairwise(sorted({0.0, end} | hinges | held)):
             first, last = (max(bisect_right(x.tolist(), at) - 1, 0) for at in (start, np.nextafter(stop, start)))
             pieces = slice(first, max(min(last, len(self.EI) - 1), first) + 1)
