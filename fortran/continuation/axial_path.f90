@@ -8,7 +8,7 @@ module gapbeam_axial_path
     use gapbeam_axial_chain, only: stays_at_rest
     use gapbeam_axial_reach, only: find_reaches
     use gapbeam_axial_progress, only: settle, change_limit
-    use gapbeam_axial_walk, only: chain_walk_type, begin_walk, set_loads, go_to, begin_stretch, numbers_of
+    use gapbeam_axial_walk, only: chain_walk_type, begin_walk, set_loads, go_to, begin_stretch, note_contacts, numbers_of
     use gapbeam_axial_friction, only: set_limit, set_limits, goes_on_so, find_reactions, drop_rounding, zeros_between
     use gapbeam_friction_limits, only: friction_limits_type, go_by_reactions, new_limits, take_lines, find_sizes, find_limits, &
         find_let_go
@@ -279,6 +279,7 @@ contains
         real(wp), intent(in) :: from, to
         type(error_type), allocatable, intent(out) :: error
         type(stretch_type) :: kept
+        real(wp), allocatable :: values(:)
         integer :: ends(2)
 
         if (walk%path%number >= walk%most) then
@@ -301,12 +302,16 @@ contains
                 if (.not. go_on_from(along%columns(ends(1))%x, walk%start)) ends(1) = 0
             end if
             if (ends(1) == 0) call add_column(walk%start, along, ends(1), error)
-            if (.not. allocated(error)) call add_column(numbers_of(walk), along, ends(2), error)
+            if (allocated(error)) return
+            allocate (values, source=numbers_of(walk))
+            ends(2) = ends(1)
+            if (any(abs(values - along%columns(ends(1))%x) > 0.0_wp)) call add_column(values, along, ends(2), error)
         end associate
         if (allocated(error)) return
         kept%ends = ends
         call add_stretch(kept, walk%path, error)
-        call begin_stretch(walk, assembled)
+        call move_alloc(values, walk%start)
+        call note_contacts(walk, assembled)
 
     contains
 

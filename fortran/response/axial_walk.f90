@@ -17,7 +17,7 @@ module gapbeam_axial_walk
     use gapbeam_axial_slip, only: find_rates_by_parts
     implicit none
     private
-    public :: chain_walk_type, begin_walk, set_loads, go_to, begin_stretch, numbers_of
+    public :: chain_walk_type, begin_walk, set_loads, go_to, begin_stretch, note_contacts, numbers_of
 
     !> Rounds in which all links of wrong sign change at once, before one alone does
     integer, parameter :: rounds_at_once = 8
@@ -254,9 +254,18 @@ contains
     pure subroutine begin_stretch(walk, assembled)
         class(chain_walk_type), intent(inout) :: walk
         type(assembled_type), intent(in) :: assembled
-        integer :: l
 
         walk%start = numbers_of(walk)
+        call note_contacts(walk, assembled)
+    end subroutine begin_stretch
+
+    !> Note where laws that keep a set have gone
+    pure subroutine note_contacts(walk, assembled)
+        !> As for begin_stretch
+        class(chain_walk_type), intent(inout) :: walk
+        type(assembled_type), intent(in) :: assembled
+        integer :: l
+
         if (.not. any(walk%chain%keeps_set)) return
         if (.not. allocated(walk%contact)) allocate (walk%contact(size(walk%chain%laws)))
         associate (chain => walk%chain)
@@ -266,19 +275,39 @@ contains
                 end associate
             end do
         end associate
-    end subroutine begin_stretch
+    end subroutine note_contacts
 
     !> Numbers of the chain, of which rounding leaves nothing where it comes to rest: first displacements, then forces
     pure function numbers_of(walk) result(values)
         class(chain_walk_type), intent(in) :: walk
         real(wp), allocatable :: values(:)
+        integer :: n
 
-        values = values_of(walk%chain)
+        allocate (values, source=values_of(walk%chain))
         if (.not. allocated(walk%start)) return
-        associate (before => abs(walk%start), n => size(walk%chain%flexibility) + 1)
-            where (abs(values(:n)) <= real(fine_rounding, wp)*maxval(before(:n))) values(:n) = 0.0_wp
-            where (abs(values(n + 1:)) <= real(fine_rounding, wp)*maxval(before(n + 1:))) values(n + 1:) = 0.0_wp
-        end associate
+        n = size(walk%chain%flexibility) + 1
+        call drop_rounding(walk%start(:n), values(:n))
+        call drop_rounding(walk%start(n + 1:), values(n + 1:))
+
+    contains
+
+        !> Leave out what is rounding beside what there was before
+        pure subroutine drop_rounding(before, values)
+            real(wp), intent(in) :: before(:)
+            real(wp), intent(inout) :: values(:)
+            real(wp) :: least
+            integer :: i
+
+            least = 0.0_wp
+            do i = 1, size(before)
+                least = max(least, abs(before(i)))
+            end do
+            least = real(fine_rounding, wp)*least
+            do i = 1, size(values)
+                if (abs(values(i)) <= least) values(i) = 0.0_wp
+            end do
+        end subroutine drop_rounding
+
     end function numbers_of
 
     !> Refuse to tell what statics cannot
