@@ -294,6 +294,9 @@ contains
                        same => train_rounding*screen%sizes, &
                        least => places%reached(q, :, :) - train_slack*spread(screen%sizes, 2, 2))
                 do field = 1, bending_count
+                    ! No part has more than the whole
+                    if (maxval(values(:, field)) < max(known(1, field), least(field, 1)) - same(field) .and. &
+                        -minval(values(:, field)) < max(-known(2, field), least(field, 2)) - same(field)) cycle
                     part(:) = part_of(values(:, field), first, last)
                     call raise(part, 1.0_wp, from, to, least(field, 1), same(field), known(1, field), where_known(1, field))
                     call raise(part, -1.0_wp, from, to, least(field, 2), same(field), known(2, field), where_known(2, field))

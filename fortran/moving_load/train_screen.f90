@@ -28,6 +28,9 @@ module gapbeam_train_screen
         !> shape (ncell, 0:degree + 1); of which links those between both ends are known
         type(field_type), allocatable :: seen(:, :)
         logical, allocatable :: sampled(:)
+        !> The link whose fields anywhere are known, 0: none, and the position
+        integer :: link = 0
+        real(wp) :: position = 0.0_wp
         !> Of every link bounds of the second derivatives in the position of the quantities of bending
         real(wp), allocatable :: curvature(:, :)
         !> Bounds of these quantities on all stretches so far
@@ -71,6 +74,7 @@ contains
             call enter_stretch(track, traversal, k, view)
             if (.not. view%clear) return
             screen%sampled(:) = .false.
+            screen%link = 0
             do i = 1, size(track%beam%links)
                 do one = 0, 1
                     ! Deflections and rotations are only measured
@@ -185,8 +189,15 @@ contains
             p = d + 1
             if (s >= view%ends(2)) p = d
             if (s <= view%ends(1)) p = 0
-            if (p > d) call bound_link(assembled, track, view, track%link(view%cells%cells(cell)%piece), &
-                                       (s - view%ends(1))/(view%ends(2) - view%ends(1)), at_link, screen%seen(:, p))
+            associate (link => track%link(view%cells%cells(cell)%piece))
+                if (p > d .and. (link /= screen%link .or. abs(s - screen%position) > 0.0_wp)) then
+                    ! Both sides of what passes the place
+                    call bound_link(assembled, track, view, link, (s - view%ends(1))/(view%ends(2) - view%ends(1)), at_link, &
+                                    screen%seen(:, p))
+                    screen%link = link
+                    screen%position = s
+                end if
+            end associate
         end associate
         found(:) = fields_seen(assembled, track, screen, q, cell, s, p, places)
     end function fields_at_position
