@@ -40,7 +40,7 @@ module gapbeam_limits
     !> by continuation/smooth_path
     integer, parameter :: segments_a_breakpoint = 4
     !> Bars up to which a chain along the beam is in quadruple precision throughout: that takes no time; tuned. Read by
-    !> contact/axial_chain
+    !> contact/axial_chain, continuation/friction_limits
     integer, parameter :: short_chain_bars = 32
     !> Changes of the contact state followed in one call, so that arrays stay small; tuned. Read by continuation/events and,
     !> through the engine, by gapbeam.results.paths

@@ -8,7 +8,8 @@ module gapbeam_path_tolerances
     public :: load_begin, missing_of_limit, train_slack, train_equal
     public :: first_share_of_way, last_share_of_way, unseen_share, weaker_springs, enter_next_interval, agreement
     public :: shortest_interval, far_from_zero, near_breakpoint, no_rate, same_factor, same_breakpoint, first_train_share
-    public :: no_friction, same_reaction, no_push, no_return, beginning_part, first_slip, found_slip, slip_settled, stiff_part
+    public :: no_friction, same_reaction, same_slope_of_reaction, larger_reaction
+    public :: no_push, no_return, beginning_part, first_slip, found_slip, slip_settled, stiff_part
     public :: nothing_left, shortest_part, slip_audited
     public :: no_slip, found_zone, steady_zone, before_all_slides, bedding_audited
     public :: arc_settled, arc_rounding, arc_noise, dependent_branches, nearest_beside, farthest_beside, no_zero
@@ -54,8 +55,13 @@ module gapbeam_path_tolerances
     !> friction would be held by nothing. Read by continuation/axial_friction
     real(wp), parameter :: no_friction = 2.0_wp**(-46)
     !> The same of differences of reactions: friction of supports that carry as much is the same. Read by
-    !> continuation/axial_friction
+    !> continuation/axial_friction, continuation/friction_limits
     real(wp), parameter :: same_reaction = 2.0_wp**(-46)
+    !> Share of that by which slopes of reactions over the load factor are the same, and limits of friction need not be changed.
+    !> Read by continuation/friction_limits
+    real(wp), parameter :: same_slope_of_reaction = 2.0_wp**(-3)
+    !> Shares of the largest reaction, and slope, beyond which what is rounding is told anew. Read by continuation/friction_limits
+    real(wp), parameter :: larger_reaction = 2.0_wp
     !> Share of the loads below which what pushes a node over ground along the beam is rounding. Read by contact/ground_along_slip
     real(wp), parameter :: no_push = 2.0_wp**(-46)
     !> Share of the fastest node below which one that goes back does not. Read by contact/ground_along_slip,

@@ -6,7 +6,7 @@
 module gapbeam_friction_limits
     use gapbeam_kinds, only: wp, qp
     use gapbeam_limits, only: short_chain_bars
-    use gapbeam_path_tolerances, only: same_reaction
+    use gapbeam_path_tolerances, only: same_reaction, same_slope_of_reaction, larger_reaction
     use gapbeam_same_numbers, only: same_numbers_type, new_numbers, find_same
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_scene, only: gapbeam_both, gapbeam_elastic
@@ -14,11 +14,6 @@ module gapbeam_friction_limits
     implicit none
     private
     public :: friction_limits_type, go_by_reactions, new_limits, take_lines, find_sizes, find_limits, find_let_go
-
-    !> Share of the largest reaction, and slope, so far beyond which sizes are to be found anew
-    real(wp), parameter :: much_larger = 2.0_wp
-    !> Share of what makes reactions the same that is rounding of a slope, or of a limit that goes on as it does
-    real(wp), parameter :: finer = 2.0_wp**(-3)
 
     !> What is known of reactions
     type :: friction_limits_type
@@ -120,7 +115,7 @@ contains
                               maxval(abs(line(2, :)), has)]
         end associate
         call new_numbers(same_reaction*limits%largest(1), limits%same(1))
-        call new_numbers(finer*same_reaction*limits%largest(2), limits%same(2))
+        call new_numbers(same_slope_of_reaction*same_reaction*limits%largest(2), limits%same(2))
     end subroutine find_sizes
 
     !> Limits of links on a stretch
@@ -143,7 +138,7 @@ contains
         do i = 1, size(links)
             line = line_of(limits, links(i))
             push = line(1) + from*line(2)
-            told = told .and. all(abs([push, line(2)]) <= much_larger*limits%largest) &
+            told = told .and. all(abs([push, line(2)]) <= larger_reaction*limits%largest) &
                 .and. min(push, line(1) + to*line(2)) >= -least
             if (push <= least) push = 0.0_wp
             call find_same(limits%same(1), push, same)
@@ -201,7 +196,7 @@ contains
         integer, intent(in) :: l
         real(wp) :: rounding(2)
 
-        rounding(:) = abs(limits%share(l))*finer*same_reaction*limits%largest
+        rounding(:) = abs(limits%share(l))*same_slope_of_reaction*same_reaction*limits%largest
     end function rounding
 
 end module gapbeam_friction_limits
