@@ -6,16 +6,41 @@ module gapbeam_foundation_fields
     use gapbeam_foundation_stretch, only: softness_in, without_slip
     use gapbeam_foundation_taylor, only: half_type, half_link, advance, mirrored, turned, is_sloped, stretched_shear, &
         trace_of, determinant_of, shear_of, transverse_of
-    use gapbeam_foundation_series, only: triple_type, response_type, short_response, is_short
+    use gapbeam_foundation_series, only: triple_type, response_type, short_type, short_of, short_response, is_short
     use gapbeam_foundation_long, only: long_type, long_of, decay_type, long_response
     implicit none
     private
-    public :: fields_at, sloped_start, sloped_fields_from
+    public :: shared_type, shared_of, fields_at, moment_at, sloped_start, sloped_fields_from
+
+    !> What fields anywhere in a stretch have in common, where nothing changes along it
+    type :: shared_type
+        private
+        !> K L**2/GA + N L**2/EI and K L**4/EI
+        real(wp) :: sigma, tau
+        logical :: is_short = .false.
+        type(short_type) :: short
+        type(long_type) :: long
+    end type shared_type
 
 contains
 
+    !> Make it
+    pure function shared_of(stretch) result(shared)
+        type(stretch_type), intent(in) :: stretch
+        type(shared_type) :: shared
+
+        shared%sigma = trace_of(stretch, stretch%modulus_a)*stretch%length**2
+        shared%tau = determinant_of(stretch, stretch%modulus_a)*stretch%length**4
+        shared%is_short = is_short(shared%sigma, shared%tau)
+        if (shared%is_short) then
+            shared%short = short_of(shared%sigma, shared%tau)
+        else
+            shared%long = long_of(shared%sigma, shared%tau)
+        end if
+    end function shared_of
+
     !> Fields anywhere in a stretch in equilibrium
-    pure subroutine fields_at(stretch, load, ends, xi, w, psi, moment, shear, transverse)
+    pure subroutine fields_at(stretch, load, ends, xi, w, psi, moment, shear, transverse, shared)
         !> The stretch, its load, deflections and moments of its ends
         type(stretch_type), intent(in) :: stretch
         type(stretch_load_type), intent(in) :: load
@@ -26,11 +51,9 @@ contains
         real(wp), intent(out) :: w, psi, moment, shear
         !> Transverse force, without differences of what an axial force makes of rotations
         real(wp), intent(out), optional :: transverse
-        type(response_type) :: r
-        type(decay_type) :: decay
-        type(long_type) :: long
-        type(stretch_ends_type) :: over
-        real(wp) :: sigma, tau, eta, l, f, k, y(5), raised, straight(2), start(4, 2)
+        !> Of the stretch, by shared_of, not where something changes along it; default: it is made here
+        type(shared_type), intent(in), optional :: shared
+        real(wp) :: start(4, 2), y(5)
         integer :: side
 
         if (is_sloped(stretch)) then
@@ -41,15 +64,56 @@ contains
             if (present(transverse)) transverse = transverse_of(stretch, xi, psi, shear)
             return
         end if
+        if (present(shared)) then
+            y = constant_fields(stretch, load, ends, shared, xi, moment_alone=.false.)
+        else
+            y = constant_fields(stretch, load, ends, shared_of(stretch), xi, moment_alone=.false.)
+        end if
+        w = y(1)
+        psi = y(2)
+        moment = y(3)
+        shear = y(4)
+        if (present(transverse)) transverse = y(5)
+    end subroutine fields_at
+
+    !> The moment alone where nothing changes along the stretch
+    pure function moment_at(stretch, load, ends, shared, xi) result(moment)
+        !> As for fields_at
+        type(stretch_type), intent(in) :: stretch
+        type(stretch_load_type), intent(in) :: load
+        type(stretch_ends_type), intent(in) :: ends
+        type(shared_type), intent(in) :: shared
+        real(wp), intent(in) :: xi
+        real(wp) :: moment, y(5)
+
+        y = constant_fields(stretch, load, ends, shared, xi, moment_alone=.true.)
+        moment = y(3)
+    end function moment_at
+
+    !> The same where nothing changes along the stretch
+    pure function constant_fields(stretch, load, ends, shared, xi, moment_alone) result(y)
+        !> As for fields_at
+        type(stretch_type), intent(in) :: stretch
+        type(stretch_load_type), intent(in) :: load
+        type(stretch_ends_type), intent(in) :: ends
+        type(shared_type), intent(in) :: shared
+        real(wp), intent(in) :: xi
+        !> Is the moment all that is wanted; in short stretches the rest is left out then
+        logical, intent(in) :: moment_alone
+        !> Deflection, rotation, moment, shear, transverse force
+        real(wp) :: y(5)
+        type(response_type) :: r
+        type(decay_type) :: decay
+        type(stretch_ends_type) :: over
+        real(wp) :: eta, l, f, k, raised, straight(2)
+
         l = stretch%length
         f = stretch%flexibility
         k = stretch%modulus_a
-        sigma = trace_of(stretch, k)*l**2
-        tau = determinant_of(stretch, k)*l**4
         eta = 1 - xi
-        if (is_short(sigma, tau)) then
+        if (shared%is_short) then
             ! The chord, and the answer to the load that is left: the ground's under the chord taken off
-            r = short_response(sigma, tau, xi, eta)
+            r = short_response(shared%short, xi, eta, with_slopes=.not. moment_alone, with_bubble=abs(load%qc) > 0.0_wp)
             associate (e => ends, c => load)
                 y(1) = eta*e%w_a + xi*e%w_b
                 y(3) = eta*e%moment_a + xi*e%moment_b
@@ -57,20 +121,19 @@ contains
                 y(2) = (e%w_b - e%w_a)/l - stretch%shear_flexibility*y(4)
                 y(5) = y(4) + stretch%tension*((e%w_b - e%w_a)/l)
                 call respond(stretch, r%even, r%even_slope, f*((e%moment_a + e%moment_b)/2) - (c%kappa + c%rise/2), &
-                             (c%qa + c%qb)/2 - k*((e%w_a + e%w_b)/2), y)
+                             (c%qa + c%qb)/2 - k*((e%w_a + e%w_b)/2), moment_alone, y)
                 call respond(stretch, r%odd, r%odd_slope, f*((e%moment_b - e%moment_a)/2) - c%rise/2, &
-                             (c%qb - c%qa)/2 - k*((e%w_b - e%w_a)/2), y)
-                if (abs(c%qc) > 0.0_wp) call respond(stretch, r%bubble, r%bubble_slope, 0.0_wp, c%qc, y)
+                             (c%qb - c%qa)/2 - k*((e%w_b - e%w_a)/2), moment_alone, y)
+                if (abs(c%qc) > 0.0_wp) call respond(stretch, r%bubble, r%bubble_slope, 0.0_wp, c%qc, moment_alone, y)
             end associate
         else
-            long = long_of(sigma, tau)
-            call long_response(long, xi, decay, r)
+            call long_response(shared%long, xi, decay, r)
             over = ends
             y = 0.0_wp
-            if (long%apart) then
-                call respond(stretch, r%even, r%even_slope, -(load%kappa + load%rise/2), (load%qa + load%qb)/2, y)
-                call respond(stretch, r%odd, r%odd_slope, -load%rise/2, (load%qb - load%qa)/2, y)
-                call respond(stretch, r%bubble, r%bubble_slope, 0.0_wp, load%qc, y)
+            if (shared%long%apart) then
+                call respond(stretch, r%even, r%even_slope, -(load%kappa + load%rise/2), (load%qa + load%qb)/2, .false., y)
+                call respond(stretch, r%odd, r%odd_slope, -load%rise/2, (load%qb - load%qa)/2, .false., y)
+                call respond(stretch, r%bubble, r%bubble_slope, 0.0_wp, load%qc, .false., y)
             else
                 ! Far from the ends the ground bears the load where it stands, and what the tension makes of its curvature
                 raised = -2*stretch%tension*load%qc/(k*l)**2
@@ -89,19 +152,16 @@ contains
             call fade(stretch, decay%left, decay%left_slope, over%w_a, over%moment_a, y)
             call fade(stretch, decay%right, decay%right_slope, over%w_b, over%moment_b, y)
         end if
-        w = y(1)
-        psi = y(2)
-        moment = y(3)
-        shear = y(4)
-        if (present(transverse)) transverse = y(5)
-    end subroutine fields_at
+    end function constant_fields
 
     !> Add the answer to a curvature and a load per length
-    pure subroutine respond(stretch, value, slope, curvature, q, y)
+    pure subroutine respond(stretch, value, slope, curvature, q, moment_alone, y)
         type(stretch_type), intent(in) :: stretch
         !> The answer and its slope
         type(triple_type), intent(in) :: value, slope
         real(wp), intent(in) :: curvature, q
+        !> Is nothing else wanted
+        logical, intent(in) :: moment_alone
         !> Deflection, rotation, moment, shear, transverse force
         real(wp), intent(inout) :: y(5)
         real(wp) :: bent, pressed, f, k, turned_by, borne
@@ -111,8 +171,9 @@ contains
             k = l**2*stretch%modulus_a
             bent = l**2*curvature/s
             pressed = l**2*q/s
-            y(1) = y(1) + (value%ga*bent + (g*value%ga - f*value%be)*pressed)
             y(3) = y(3) + ((k*value%be - n*value%ga)*bent + value%ga*pressed)
+            if (moment_alone) return
+            y(1) = y(1) + (value%ga*bent + (g*value%ga - f*value%be)*pressed)
             y(4) = y(4) + ((k*slope%be - n*slope%ga)*bent + slope%ga*pressed)/l
             ! As s al + n f be = s ga - k g be: by the lesser of the two terms in be, which may be long
             ! where the rest decays

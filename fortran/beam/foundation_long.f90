@@ -6,7 +6,7 @@
 module gapbeam_foundation_long
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: no_decay_length
-    use gapbeam_foundation_series, only: end_functions_type, triple_type, response_type, short_ends, short_response
+    use gapbeam_foundation_series, only: end_functions_type, triple_type, response_type, short_ends, short_of, short_response
     implicit none
     private
     public :: long_type, long_of, long_ends, long_response, decay_type
@@ -230,7 +230,7 @@ contains
         square = x**2
         t = xi - eta
         if (square <= 8.0_wp) then
-            r = short_response(square, 0.0_wp, xi, eta)
+            r = short_response(short_of(square, 0.0_wp), xi, eta, with_slopes=.true., with_bubble=.true.)
             value = [eta - square*(r%even%ga - r%odd%ga)/2, xi - square*(r%even%ga + r%odd%ga)/2, &
                      r%even%ga, r%odd%ga, r%bubble%ga]
             slope = [-1 - square*(r%even_slope%ga - r%odd_slope%ga)/2, 1 - square*(r%even_slope%ga + r%odd_slope%ga)/2, &

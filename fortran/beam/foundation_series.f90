@@ -8,7 +8,7 @@ module gapbeam_foundation_series
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: end_functions_type, triple_type, response_type, short_ends, short_response, is_short
+    public :: end_functions_type, triple_type, response_type, short_type, short_ends, short_of, short_response, is_short
 
     !> Functions of a stretch's ends, all without unit: X coth X = a + c X**2, X/sinh X = b - e X**2
     type :: end_functions_type
@@ -24,7 +24,7 @@ module gapbeam_foundation_series
 
     !> a function of X**2: al + be X**2, and ga = al + S be with S = K L**2/GA, the trace of X**2
     type :: triple_type
-        real(wp) :: al, be, ga
+        real(wp) :: al = 0.0_wp, be = 0.0_wp, ga = 0.0_wp
     end type triple_type
 
     !> Answers of a stretch held at both ends (y = 0) to loads over it, and their slopes in xi
@@ -44,6 +44,14 @@ module gapbeam_foundation_series
         real(wp) :: sigma, tau
         integer :: terms
     end type ring_type
+
+    !> What answers anywhere in a short stretch are made of
+    type :: short_type
+        private
+        type(ring_type) :: ring
+        !> (cosh x - 1)/x**2 and (sinh x - x)/x**3; x/sinh x and 1/cosh x
+        type(pair_type) :: cosine_rest, sine_rest, over_sine, over_cosine
+    end type short_type
 
     !> Terms for any stretch, for eigenvalues of Z up to 2 and up to 1/8: the next one is below rounding
     integer, parameter :: most_terms = merge(40, 30, digits(1.0_wp) > 64)
@@ -87,52 +95,63 @@ contains
         ends%determinant = 1/(sine_determinant*cosine_determinant)
     end function short_ends
 
-    !> The answers to loads at a place; every one is zero at the ends, with all digits beside them
-    pure function short_response(sigma, tau, xi, eta) result(response)
+    !> What the answers in a stretch have in common
+    pure function short_of(sigma, tau) result(short)
         !> As for short_ends
         real(wp), intent(in) :: sigma, tau
+        type(short_type) :: short
+
+        short%ring = ring_of(sigma, tau)
+        call both_rests(short%ring, 1.0_wp, short%cosine_rest, short%sine_rest)
+        short%over_sine = inverse(short%ring, one_plus(short%ring, short%sine_rest))
+        short%over_cosine = inverse(short%ring, one_plus(short%ring, short%cosine_rest))
+    end function short_of
+
+    !> The answers to loads at a place; every one is zero at the ends, with all digits beside them
+    pure function short_response(short, xi, eta, with_slopes, with_bubble) result(response)
+        !> By short_of
+        type(short_type), intent(in) :: short
         !> The place in parts of the length from the left end and from the right one
         real(wp), intent(in) :: xi, eta
+        !> Are slopes wanted, and the answers to the last one; else they are 0
+        logical, intent(in) :: with_slopes, with_bubble
         type(response_type) :: response
         type(ring_type) :: ring
-        type(pair_type) :: sine, cosine, over_sine, over_cosine, cosine_rest, sine_rest, left, right, middle, z
-        type(pair_type) :: middle_cosine, left_sine, right_sine
+        type(pair_type) :: left, right, middle, z, middle_cosine, left_sine, right_sine
         real(wp) :: t, bump, product
 
-        ring = ring_of(sigma, tau)
+        ring = short%ring
         t = xi - eta
         bump = xi*eta
-        call both_rests(ring, 1.0_wp, cosine_rest, sine_rest)
-        call both_rests(ring, t**2, middle_cosine, middle)
         left = one_rest(ring, xi**2)
         right = one_rest(ring, eta**2)
-        sine = one_plus(ring, sine_rest)
-        cosine = one_plus(ring, cosine_rest)
-        over_sine = inverse(ring, sine)
-        over_cosine = inverse(ring, cosine)
         left_sine = one_plus(ring, scaled(left, xi**2))
         right_sine = one_plus(ring, scaled(right, eta**2))
 
         ! (1 - cosh(x t)/cosh x)/(4 x**2) = 1/2 sinh(x xi) sinh(x eta)/(x**2 cosh x)
-        z = times(ring, times(ring, left_sine, right_sine), over_cosine)
+        z = times(ring, times(ring, left_sine, right_sine), short%over_cosine)
         response%even = triple(ring, z, bump/2)
         ! (t - sinh(x t)/sinh x)/(4 x**2)
-        z = times(ring, risen(ring, t**2), over_sine)
+        z = times(ring, risen(ring, t**2), short%over_sine)
         response%odd = triple(ring, z, t*bump)
-        ! The first one again, less its own leading term
-        product = bump**2
-        z = times(ring, left, right)
-        z = pair_type(-ring%tau*z%b*product, (z%a + ring%sigma*z%b)*product)
-        z%a = cosine_rest%a - xi**2*left%a - eta**2*right%a - z%a
-        z%b = cosine_rest%b - xi**2*left%b - eta**2*right%b - z%b
-        response%bubble = triple(ring, times(ring, z, over_cosine), bump/4)
-
-        z = times(ring, one_plus(ring, scaled(middle, t**2)), over_cosine)
+        if (with_bubble) then
+            ! The first one again, less its own leading term
+            product = bump**2
+            z = times(ring, left, right)
+            z = pair_type(-ring%tau*z%b*product, (z%a + ring%sigma*z%b)*product)
+            z%a = short%cosine_rest%a - xi**2*left%a - eta**2*right%a - z%a
+            z%b = short%cosine_rest%b - xi**2*left%b - eta**2*right%b - z%b
+            response%bubble = triple(ring, times(ring, z, short%over_cosine), bump/4)
+        end if
+        if (.not. with_slopes) return
+        call both_rests(ring, t**2, middle_cosine, middle)
+        z = times(ring, one_plus(ring, scaled(middle, t**2)), short%over_cosine)
         response%even_slope = triple(ring, z, -t/2)
-        z = pair_type(sine_rest%a - t**2*middle_cosine%a, sine_rest%b - t**2*middle_cosine%b)
-        response%odd_slope = triple(ring, times(ring, z, over_sine), 0.5_wp)
-        z = pair_type(cosine_rest%a - t**2*middle%a, cosine_rest%b - t**2*middle%b)
-        response%bubble_slope = triple(ring, times(ring, z, over_cosine), -t/4)
+        z = pair_type(short%sine_rest%a - t**2*middle_cosine%a, short%sine_rest%b - t**2*middle_cosine%b)
+        response%odd_slope = triple(ring, times(ring, z, short%over_sine), 0.5_wp)
+        if (.not. with_bubble) return
+        z = pair_type(short%cosine_rest%a - t**2*middle%a, short%cosine_rest%b - t**2*middle%b)
+        response%bubble_slope = triple(ring, times(ring, z, short%over_cosine), -t/4)
     end function short_response
 
     !> The ring at half the stretch, and how many terms it takes
@@ -163,10 +182,17 @@ contains
         sigma = square*ring%sigma
         cosine = pair_type(1.0_wp, 0.0_wp)
         sine = cosine
-        do i = ring%terms, 1, -1
-            cosine = pair_type(1 - tau*cosine_ratio(i)*cosine%b, (square*cosine%a + sigma*cosine%b)*cosine_ratio(i))
-            sine = pair_type(1 - tau*sine_ratio(i)*sine%b, (square*sine%a + sigma*sine%b)*sine_ratio(i))
-        end do
+        if (abs(tau) > 0.0_wp) then
+            do i = ring%terms, 1, -1
+                cosine = pair_type(1 - tau*cosine_ratio(i)*cosine%b, (square*cosine%a + sigma*cosine%b)*cosine_ratio(i))
+                sine = pair_type(1 - tau*sine_ratio(i)*sine%b, (square*sine%a + sigma*sine%b)*sine_ratio(i))
+            end do
+        else  ! the same without ground
+            do i = ring%terms, 1, -1
+                cosine%b = (square + sigma*cosine%b)*cosine_ratio(i)
+                sine%b = (square + sigma*sine%b)*sine_ratio(i)
+            end do
+        end if
         cosine = scaled(cosine, 0.5_wp)
         sine = pair_type(sine%a/6, sine%b/6)
     end subroutine both_rests
@@ -182,9 +208,15 @@ contains
         tau = square*ring%tau
         sigma = square*ring%sigma
         sine = pair_type(1.0_wp, 0.0_wp)
-        do i = ring%terms, 1, -1
-            sine = pair_type(1 - tau*sine_ratio(i)*sine%b, (square*sine%a + sigma*sine%b)*sine_ratio(i))
-        end do
+        if (abs(tau) > 0.0_wp) then
+            do i = ring%terms, 1, -1
+                sine = pair_type(1 - tau*sine_ratio(i)*sine%b, (square*sine%a + sigma*sine%b)*sine_ratio(i))
+            end do
+        else
+            do i = ring%terms, 1, -1
+                sine%b = (square + sigma*sine%b)*sine_ratio(i)
+            end do
+        end if
         sine = pair_type(sine%a/6, sine%b/6)
     end function one_rest
 
@@ -201,9 +233,15 @@ contains
             weight(i) = 1 + square*weight(i - 1)
         end do
         sum = pair_type(weight(ring%terms), 0.0_wp)
-        do i = ring%terms, 1, -1
-            sum = pair_type(weight(i - 1) - ring%tau*sine_ratio(i)*sum%b, (sum%a + ring%sigma*sum%b)*sine_ratio(i))
-        end do
+        if (abs(ring%tau) > 0.0_wp) then
+            do i = ring%terms, 1, -1
+                sum = pair_type(weight(i - 1) - ring%tau*sine_ratio(i)*sum%b, (sum%a + ring%sigma*sum%b)*sine_ratio(i))
+            end do
+        else
+            do i = ring%terms, 1, -1
+                sum = pair_type(weight(i - 1), (sum%a + ring%sigma*sum%b)*sine_ratio(i))
+            end do
+        end if
         sum = pair_type(sum%a/6, sum%b/6)
     end function risen
 

@@ -6,7 +6,7 @@ module gapbeam_ground_fields
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, decay_lengths
     use gapbeam_foundation_stretch, only: softest, without_slip, greatest_tension, tension_at
     use gapbeam_foundation_taylor, only: is_sloped, transverse_of
-    use gapbeam_foundation_fields, only: fields_at, sloped_start, sloped_fields_from
+    use gapbeam_foundation_fields, only: shared_type, shared_of, fields_at, moment_at, sloped_start, sloped_fields_from
     use gapbeam_laws, only: law_cubic, parameters_of_law
     use gapbeam_layers, only: layer_type, law_piece_type, law_piece, is_curve, has_points
     use gapbeam_curved, only: curved_type, curved_fields
@@ -14,7 +14,7 @@ module gapbeam_ground_fields
     use gapbeam_ground_solution, only: ground_solution_type
     implicit none
     private
-    public :: inside_type, prepare_inside, field_at_end, force_at_end, field_inside, force_inside, curved_stretch
+    public :: inside_type, prepare_inside, field_at_end, force_at_end, field_inside, moment_inside, force_inside, curved_stretch
     public :: deflection_size, find_sizes, largest_inside, breakpoint_terms, pressure_terms
 
     !> A stretch of a solution, ready to be asked for its fields
@@ -29,6 +29,8 @@ module gapbeam_ground_fields
         !> Fields at both ends where modulus or stiffness change along the stretch (sloped_start)
         logical :: sloped = .false.
         real(wp) :: start(4, 2) = 0.0_wp
+        !> Else what fields inside have in common
+        type(shared_type) :: shared
         !> What rotation and shear at its ends lack when they are made of load and moments, shape (2, 2)
         real(wp) :: off(2, 2) = 0.0_wp
         !> The same of the transverse force
@@ -48,7 +50,7 @@ contains
         !> The solution, and the number of the stretch
         type(ground_solution_type), intent(in) :: solution
         integer, intent(in) :: i
-        !> Ready for field_inside
+        !> Ready for field_inside, and unless roughly for force_inside
         type(inside_type), intent(out) :: inside
         !> Is it enough if rotations and shears are made of load and moments, which costs less; default: no
         logical, intent(in), optional :: roughly
@@ -67,12 +69,14 @@ contains
         if (inside%sloped) then
             inside%start(:, 1) = sloped_start(inside%stretch, inside%load, inside%ends, 1)
             inside%start(:, 2) = sloped_start(inside%stretch, inside%load, inside%ends, 2)
-        end if
-        if (abs(inside%stretch%tension) > 0.0_wp .and. .not. inside%sloped) then
-            inside%off_force = solution%force(:, i) - [force_inside(inside, 0.0_wp), force_inside(inside, 1.0_wp)]
+        else
+            inside%shared = shared_of(inside%stretch)
         end if
         if (present(roughly)) then
             if (roughly) return
+        end if
+        if (abs(inside%stretch%tension) > 0.0_wp .and. .not. inside%sloped) then
+            inside%off_force = solution%force(:, i) - [force_inside(inside, 0.0_wp), force_inside(inside, 1.0_wp)]
         end if
         if (decay_lengths(inside%stretch) > 1.0_wp) return
         ! In a short stretch the shear is a small difference of moments by a small length, and where shear bends most the rotation
@@ -135,6 +139,22 @@ contains
         field%shear = field%shear + along(inside%off(2, 1), inside%off(2, 2), xi, 1.0_wp)
     end subroutine field_inside
 
+    !> The moment alone, the same as that of field_inside
+    pure function moment_inside(inside, xi) result(moment)
+        !> As for field_inside
+        type(inside_type), intent(in) :: inside
+        real(wp), intent(in) :: xi
+        real(wp) :: moment
+        type(field_type) :: field
+
+        if (allocated(inside%curved) .or. inside%sloped) then
+            call field_inside(inside, xi, field)
+            moment = field%moment
+        else
+            moment = moment_at(inside%stretch, inside%load, inside%ends, inside%shared, xi)
+        end if
+    end function moment_inside
+
     !> Transverse force between the ends of a stretch
     pure function force_inside(inside, xi) result(force)
         type(inside_type), intent(in) :: inside
@@ -148,7 +168,7 @@ contains
             force = transverse_of(inside%stretch, xi, field%rotation, field%shear)
         else
             call fields_at(inside%stretch, inside%load, inside%ends, xi, field%deflection, field%rotation, field%moment, &
-                           field%shear, force)
+                           field%shear, force, inside%shared)
             force = force + (inside%stretch%tension*inside%slope + along(inside%off_force(1), inside%off_force(2), xi, 1.0_wp))
         end if
     end function force_inside
@@ -164,7 +184,7 @@ contains
                                     field%moment, field%shear)
         else
             call fields_at(inside%stretch, inside%load, inside%ends, xi, field%deflection, field%rotation, field%moment, &
-                           field%shear)
+                           field%shear, shared=inside%shared)
         end if
     end function beside_chord
 

@@ -240,13 +240,13 @@ contains
         type(fine_grounded_type), intent(in) :: grounded
         integer, intent(in) :: i
         type(fine_workspace_type), intent(inout) :: work
-        real(qp) :: size_of_shear
+        real(qp) :: least
 
         associate (a => work%answers(i - 1), b => work%answers(i), g => grounded%beam%ground(i), link => grounded%beam%links(i))
-            size_of_shear = g%pa*max(abs(a%moment_right), abs(b%moment_left)) + g%gaa*max(abs(a%deflection), abs(b%deflection)) &
-                + sum(abs(link%shear_a))
-            if (abs(a%moment_right) <= fine_rounding*size_of_shear/g%pa) a%moment_right = 0.0_qp
-            if (abs(b%moment_left) <= fine_rounding*size_of_shear/g%pa) b%moment_left = 0.0_qp
+            least = fine_rounding*(g%pa*max(abs(a%moment_right), abs(b%moment_left)) &
+                                   + g%gaa*max(abs(a%deflection), abs(b%deflection)) + sum(abs(link%shear_a)))/g%pa
+            if (abs(a%moment_right) <= least) a%moment_right = 0.0_qp
+            if (abs(b%moment_left) <= least) b%moment_left = 0.0_qp
         end associate
     end subroutine drop_rounding
 
@@ -382,6 +382,7 @@ contains
         type(fine_stretch_load_type) :: found
 
         found = load
+        if (.not. max(abs(stretch%modulus_a), abs(stretch%modulus_b), abs(stretch%tension_change)) > 0.0_qp) return
         ! Where it slopes, an axial force that changes pulls
         found%qa = difference(load%qa + stretch%tension_change*(line(2) - line(1))/stretch%length**2, stretch%modulus_a*line(1))
         found%qb = difference(load%qb + stretch%tension_change*(line(2) - line(1))/stretch%length**2, stretch%modulus_b*line(2))

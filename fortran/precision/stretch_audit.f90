@@ -15,8 +15,8 @@ module gapbeam_stretch_audit
     use gapbeam_ground_solution, only: ground_solution_type
     use gapbeam_foundation_stretch, only: tension_at, greatest_tension
     use gapbeam_foundation_taylor, only: trace_of, determinant_of
-    use gapbeam_ground_fields, only: inside_type, prepare_inside, field_at_end, force_at_end, field_inside, curved_stretch, &
-        breakpoint_terms, pressure_terms
+    use gapbeam_ground_fields, only: inside_type, prepare_inside, field_at_end, force_at_end, field_inside, moment_inside, &
+        curved_stretch, breakpoint_terms, pressure_terms
     use gapbeam_quadrature, only: panels_type, cut_into_panels, points_of, most_points
     use gapbeam_ledger, only: ledger_type, note, of_bending, of_equilibrium, of_resultants, of_contact, deflections, rotations, &
         moments, forces, beyond, pulls
@@ -158,12 +158,16 @@ contains
             type(field_type) :: field
             real(wp) :: points(most_points), weights(most_points), rate(2), fade(2), q, place, push, total, curvature, here(2)
             integer :: p, k, t, number
+            !> Without ground, and where nothing changes along the stretch, the equations feel the moment only
+            logical :: moment_alone
 
+            moment_alone = n == 0
             call rates_of(solution, i, rate, fade)
             ! On a step of a taper the depth would vanish four steps away: ten points leave less than rounding of that, and of what
             ! an axial force that changes makes
             if (is_tapered(ground%pieces(solution%piece(i))) .or. abs(solution%stretches(i)%tension_change) > 0.0_wp) then
                 rate = max(rate, least_rate)
+                moment_alone = .false.
             end if
             call cut_into_panels(rate, fade, panels)
             bent = 0.0_wp
@@ -175,7 +179,11 @@ contains
                 do p = 1, panels%number
                     call points_of(panels, p, number, points, weights)
                     do t = 1, number
-                        call field_inside(inside, points(t), field)
+                        if (moment_alone) then
+                            field = field_type(0.0_wp, 0.0_wp, moment_inside(inside, points(t)), 0.0_wp)
+                        else
+                            call field_inside(inside, points(t), field)
+                        end if
                         call check_layers(points(t), field, .false.)
                         place = along(solution%from(i), solution%to(i), points(t), 1.0_wp)
                         q = along(load%qa, load%qb, place, ground%pieces(j)%length)
