@@ -22,12 +22,12 @@ module gapbeam_stretch_audit
         moments, forces, beyond, pulls
     implicit none
     private
-    public :: sums_type, audit_stretch, rates_of
+    public :: sums_type, audit_stretch, rates_of, least_rate
 
     !> Samples of stretches in which ground acts by curves: their series are taken from end to end, not integrated by points
     integer, parameter :: samples = 3
 
-    !> Rate at which a stretch is integrated at least that tapers, or along which the axial force changes
+    !> Rate at which a stretch is integrated at least that tapers, or along which the axial force changes; or squares of its slopes
     real(wp), parameter :: least_rate = 4.0_wp
 
     !> Forces on a stretch, ground and loads, in sum

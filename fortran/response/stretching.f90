@@ -12,7 +12,7 @@ module gapbeam_stretching
     use gapbeam_element, only: field_type
     use gapbeam_ground_solution, only: ground_solution_type
     use gapbeam_ground_fields, only: inside_type, prepare_inside, field_inside
-    use gapbeam_stretch_audit, only: rates_of
+    use gapbeam_stretch_audit, only: rates_of, least_rate
     use gapbeam_scene, only: gapbeam_axial
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_axial_tension, only: tensions_of_loads
@@ -95,8 +95,8 @@ contains
                 call prepare_inside(layers, assembled%law_pieces, assembled%pieces(j)%length, solution, i, inside)
             end associate
             call rates_of(solution, i, rate, fade)
-            ! Squares change and fade twice as fast
-            call cut_into_panels(2*share*rate, 2*share*fade, panels)
+            ! Squares change and fade twice as fast; of slopes under a linear load they have degree 8
+            call cut_into_panels(max(2*share*rate, least_rate), 2*share*fade, panels)
             longer = 0.0_wp
             do p = 1, panels%number
                 call points_of(panels, p, number, points, weights)

@@ -196,3 +196,12 @@ def test_displacements_along_the_axis_where_its_elongation_changes(keys):
         assert extremes[way].value == pytest.approx(float(result.at(extremes[way].x).axial_displacement), rel=1e-12, abs=1e-20)
         assert abs(extremes[way].value) >= abs(found) * (1 - 1e-14)
         assert extremes[way].value == pytest.approx(found, rel=1e-4)
+
+
+def test_a_stiff_beam_under_a_triangular_load():
+    """w' = q (7 - 30 x**2 + 15 x**4)/(360 EI): squares of degree 8, whose integral is 192/7."""
+    q, EA = 1e-8, 1e4
+    stiff = simple(EA=EA)
+    stiff["loads"] = [{"type": "linear", "q": [0.0, q]}]
+    tension = float(gapbeam.solve(stiff).at(0.3).axial_force)
+    assert tension / EA * (360 / q) ** 2 == pytest.approx(96 / 7, rel=1e-13)
