@@ -97,6 +97,7 @@ static inline quad sum_of(uint64_t ah, uint64_t al, uint64_t bh, uint64_t bl, in
     const uint64_t sign = (swapped ? bh : ah) & SIGN;
     const wide larger = swapped ? y : x, smaller = swapped ? x : y;
     const unsigned e = (unsigned)(larger >> 112), less = (unsigned)(smaller >> 112), apart = e - less;
+    uint64_t xh;
     unsigned zeros, exponent;
 
     *known = 1;
@@ -106,18 +107,27 @@ static inline quad sum_of(uint64_t ah, uint64_t al, uint64_t bh, uint64_t bl, in
     }
     x = ((larger & (hidden - 1)) | hidden) << (SPARE - 1);
     y = ((smaller & (hidden - 1)) | hidden) << (SPARE - 1);
-    if (rarely(apart > 127)) {
-        y = 1;
+    if (apart < 64) {
+        /* By halves: a shift of both takes some times as long */
+        const uint64_t yh = (uint64_t)(y >> 64), yl = (uint64_t)y, lost = yl << 1 << (63 - apart);
+        y = (wide)(yh >> apart) << 64 | (yl >> apart | yh << 1 << (63 - apart)) | (lost != 0);
     } else {
-        const wide shifted = y >> apart;
-        y = shifted | (shifted << apart != y);
+        y = apart > 127 ? 1 : y >> apart | (y >> apart << apart != y);
     }
     x = opposite ? x - y : x + y;
-    if (rarely(x == 0)) return made_of(0, 0);
-    zeros = x >> 64 ? (unsigned)__builtin_clzll((uint64_t)(x >> 64)) : 64 + (unsigned)__builtin_clzll((uint64_t)x);
+    xh = (uint64_t)(x >> 64);
+    if (rarely(xh == 0)) {
+        if (x == 0) return made_of(0, 0);
+        zeros = 64 + (unsigned)__builtin_clzll((uint64_t)x);
+        x = x << zeros;
+    } else {
+        const uint64_t xl = (uint64_t)x;
+        zeros = (unsigned)__builtin_clzll(xh);
+        x = (wide)(xh << zeros | xl >> 1 >> (63 - zeros)) << 64 | xl << zeros;
+    }
     exponent = e + 1 - zeros;
     *known = !is_extreme(exponent);
-    return rounded(sign, exponent, x << zeros);
+    return rounded(sign, exponent, x);
 }
 
 quad __wrap___addtf3(quad a, quad b)
