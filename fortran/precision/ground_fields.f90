@@ -50,7 +50,7 @@ contains
         !> The solution, and the number of the stretch
         type(ground_solution_type), intent(in) :: solution
         integer, intent(in) :: i
-        !> Ready for field_inside, and unless roughly for force_inside
+        !> Ready for field_inside
         type(inside_type), intent(out) :: inside
         !> Is it enough if rotations and shears are made of load and moments, which costs less; default: no
         logical, intent(in), optional :: roughly
@@ -72,11 +72,11 @@ contains
         else
             inside%shared = shared_of(inside%stretch)
         end if
-        if (present(roughly)) then
-            if (roughly) return
-        end if
         if (abs(inside%stretch%tension) > 0.0_wp .and. .not. inside%sloped) then
             inside%off_force = solution%force(:, i) - [force_inside(inside, 0.0_wp), force_inside(inside, 1.0_wp)]
+        end if
+        if (present(roughly)) then
+            if (roughly) return
         end if
         if (decay_lengths(inside%stretch) > 1.0_wp) return
         ! In a short stretch the shear is a small difference of moments by a small length, and where shear bends most the rotation
