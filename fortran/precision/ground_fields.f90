@@ -42,7 +42,7 @@ module gapbeam_ground_fields
 contains
 
     !> Make a stretch ready
-    pure subroutine prepare_inside(layers, laws, length, solution, i, inside, roughly)
+    pure subroutine prepare_inside(layers, laws, length, solution, i, inside, roughly, without_forces)
         !> Layers of ground under the piece of the beam, the pieces of all laws, and the length of the piece of the beam
         type(layer_type), intent(in) :: layers(:)
         type(law_piece_type), intent(in) :: laws(:)
@@ -54,6 +54,9 @@ contains
         type(inside_type), intent(out) :: inside
         !> Is it enough if rotations and shears are made of load and moments, which costs less; default: no
         logical, intent(in), optional :: roughly
+        !> Is force_inside not asked; default: it may be
+        logical, intent(in), optional :: without_forces
+        logical :: forces
 
         inside%stretch = solution%stretches(i)
         call curved_stretch(layers, laws, length, solution, i, inside%curved)
@@ -72,7 +75,9 @@ contains
         else
             inside%shared = shared_of(inside%stretch)
         end if
-        if (abs(inside%stretch%tension) > 0.0_wp .and. .not. inside%sloped) then
+        forces = .true.
+        if (present(without_forces)) forces = .not. without_forces
+        if (forces .and. abs(inside%stretch%tension) > 0.0_wp .and. .not. inside%sloped) then
             inside%off_force = solution%force(:, i) - [force_inside(inside, 0.0_wp), force_inside(inside, 1.0_wp)]
         end if
         if (present(roughly)) then

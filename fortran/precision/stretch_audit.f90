@@ -91,7 +91,8 @@ contains
                 if (curves) then
                     call go_along_curves()
                 else
-                    call prepare_inside(layers, ground%laws, ground%pieces(j)%length, solution, i, inside, roughly=.true.)
+                    call prepare_inside(layers, ground%laws, ground%pieces(j)%length, solution, i, inside, roughly=.true., &
+                                        without_forces=.true.)
                     call integrate()
                     if (abs(s%tension_change) > 0.0_wp) pull = l*pulled
                     call fits(of_bending, rotations, (right%rotation - left%rotation) - l*bent(1), &
