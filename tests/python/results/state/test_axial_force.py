@@ -190,6 +190,17 @@ def test_moments_that_are_rounding_are_no_jump(N, status):
         assert float(share) * N == pytest.approx(-2.0, rel=1e-5)
 
 
+@pytest.mark.parametrize("N", [-3.0, 1e-3, 2.0, 70.0, 1e4])
+def test_the_transverse_force_has_all_digits_inside_a_span(N):
+    """Loads and reactions balance it, whatever bends."""
+    spans = np.array([1.0, 0.8, 1.3])
+    made = scene(spans.tolist(), [{"node": n} for n in range(4)], [uniform(1.0)], EI=1.0, N=N)
+    result = gapbeam.solve(made)
+    reactions, x = result.steps[-1].reaction, np.linspace(0.0, 3.05, 30)
+    exact = [sum(reactions[np.concatenate(([0.0], np.cumsum(spans))) <= place]) - place for place in x]
+    assert result.at(x).transverse == pytest.approx(exact, abs=2e-15)
+
+
 def test_what_a_beam_bears_does_not_depend_on_what_it_is_asked_for():
     """A jump to another stable state on the way, at the upper stop, was taken or not as the steps fell."""
     scene = {
