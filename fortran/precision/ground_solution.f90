@@ -206,8 +206,7 @@ contains
             softness(:) = softness_in(s, xi)
             associate (psi => turn_and_shear(1), shear => turn_and_shear(2))
                 bent = q%kappa + xi*q%rise - softness(1)*moment
-                gain = way*[psi + softness(2)*shear, bent, shear, &
-                            (modulus*w - pressure - tension_at(s, xi)*bent &
+                gain = way*[psi + softness(2)*shear, bent, shear, (modulus*w - pressure - tension_at(s, xi)*bent &
                              - s%tension_change/s%length*psi)/stretched_shear(s)]
                 w = w + gain(1)
                 psi = psi + gain(2)

@@ -36,17 +36,17 @@ def test_what_lifts_is_said_first():
     assert json.loads(to_json(result))["lifted"] == [{"support": 2, "opening": one.opening, "factor": 1.0}]
 
 
-@pytest.mark.parametrize(("N", "load", "outcome"), [(-10.0, -40.0, "Buckles"), (0.0, -40.0, "No equilibrium")])
-def test_a_beam_that_does_not_stand_is_not_headed_as_solved(N, load, outcome):
+@pytest.mark.parametrize("N", [-10.0, 0.0])
+def test_a_beam_that_does_not_stand_is_not_headed_as_solved(N):
     """The last state of its path can move freely, as the support lets go there."""
-    supports, loads = [scenes.at(0), scenes.at(1, side="below")], [scenes.uniform(2.0, case="dead"), scenes.force(3.0, load)]
+    supports, loads = [scenes.at(0), scenes.at(1, side="below")], [scenes.uniform(2.0, case="dead"), scenes.force(3.0, -40.0)]
     made = scenes.scene([4.0], supports, loads, EI=1e4, N=N)
     result = gapbeam.solve({**made, "analysis": {"follow": "events"}})
     assert result.status != "solved"
     assert result.steps[-1].indifferent
     lines = repr(result).splitlines()
     assert lines[0] == "Beam without a title"
-    assert lines[1].startswith(outcome)
+    assert lines[1].startswith("No equilibrium")
 
 
 def test_nothing_lifts():
