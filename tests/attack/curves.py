@@ -65,6 +65,8 @@ def judge(made, seed=0):
         beam = CurvedBeam(made)
     except Loose:
         return Verdict("nothing but such supports holds it")
+    if not beam.which:
+        return Verdict("no such support")
     result = gapbeam.solve(made)
     verdict = Verdict(result.status)
     if result.status != "solved":
