@@ -7,7 +7,7 @@ module gapbeam_limits
     private
     public :: most_path_segments, changes_at_a_time, most_extreme_ties, most_train_states, most_steps_on_curves
     public :: most_taylor_terms, most_power, most_panels, most_waiting_patches, most_nodes_solved, least_solves
-    public :: segments_a_breakpoint, short_chain_bars
+    public :: segments_a_breakpoint, short_chain_bars, limits_anew_bars
     public :: non_monotone_solves, warm_non_monotone_solves, polish_non_monotone_solves, last_non_monotone_solves
     public :: law_non_monotone_solves, final_non_monotone_solves, rounding_changes, most_guess_steps, few_guess_changes
     public :: steps_between_guesses, subdomain_rounds, few_wrong_supports, long_beam_links, least_margin_nodes, nodes_apart
@@ -40,8 +40,11 @@ module gapbeam_limits
     !> by continuation/smooth_path
     integer, parameter :: segments_a_breakpoint = 4
     !> Bars up to which a chain along the beam is in quadruple precision throughout: that takes no time; tuned. Read by
-    !> contact/axial_chain, continuation/friction_limits
+    !> contact/axial_chain
     integer, parameter :: short_chain_bars = 32
+    !> Bars up to which all limits of friction are found anew where one changes: reactions then are those of solves, where lines
+    !> leave a digit less; tuned. Read by continuation/friction_limits
+    integer, parameter :: limits_anew_bars = 128
     !> Changes of the contact state followed in one call, so that arrays stay small; tuned. Read by continuation/events and,
     !> through the engine, by gapbeam.results.paths
     integer, parameter :: changes_at_a_time = 1000

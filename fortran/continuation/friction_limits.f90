@@ -5,7 +5,7 @@
 !> follows from them.
 module gapbeam_friction_limits
     use gapbeam_kinds, only: wp, qp
-    use gapbeam_limits, only: short_chain_bars
+    use gapbeam_limits, only: limits_anew_bars
     use gapbeam_path_tolerances, only: same_reaction, same_slope_of_reaction, larger_reaction
     use gapbeam_same_numbers, only: same_numbers_type, new_numbers, find_same
     use gapbeam_polyline, only: last_breakpoint
@@ -42,7 +42,7 @@ contains
         they_do = allocated(assembled%axial%laws)
         if (.not. they_do) return
         associate (axial => assembled%axial, its => assembled%model%supports(assembled%axial%support))
-            they_do = size(axial%flexibility) > short_chain_bars .and. any(axial%rubs) &
+            they_do = size(axial%flexibility) > limits_anew_bars .and. any(axial%rubs) &
                 .and. all(merge(its%side /= gapbeam_both, its%unloading == gapbeam_elastic, axial%rubs))
         end associate
     end function go_by_reactions
