@@ -44,7 +44,7 @@ module gapbeam_limits
     integer, parameter :: short_chain_bars = 32
     !> Bars up to which all limits of friction are found anew where one changes: reactions then are those of solves, where lines
     !> leave a digit less; tuned. Read by continuation/friction_limits
-    integer, parameter :: limits_anew_bars = 128
+    integer, parameter :: limits_anew_bars = 400
     !> Changes of the contact state followed in one call, so that arrays stay small; tuned. Read by continuation/events and,
     !> through the engine, by gapbeam.results.paths
     integer, parameter :: changes_at_a_time = 1000

@@ -11,7 +11,7 @@ from scenes.links_along import own_weight, warm
 FRICTION = 0.3
 
 
-def rack(seed, supports=150):
+def rack(seed, supports=450):
     """A long beam with gaps, pulled up here and there while it gets warm; stops along it hold it."""
     rng = random.Random(seed)
     held = [at(n, side="below", friction=FRICTION, gap=rng.choice((0.0, 0.0, 0.002)) if 0 < n < supports - 1 else 0.0)
