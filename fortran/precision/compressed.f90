@@ -180,6 +180,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(ground_start_type), intent(in), optional :: near
         type(ground_solution_type) :: last
+        type(ground_type) :: pressed
         type(ground_start_type) :: start, next
         logical :: first(size(closed)), last_closed(size(closed)), reached, gives_way, leaves
         real(wp), allocatable :: mode(:)
@@ -206,14 +207,15 @@ contains
             do number = 1, most_compressions
                 call start_from(last, last_closed, start)
                 closed(:) = last_closed
-                call solve_on_ground(under_share(ground, min(1.0_wp, share + step)), detail, factor, rule, closed, solution, &
-                                     outcome, error, start, only_near=search == 1)
+                pressed = under_share(ground, min(1.0_wp, share + step))
+                call solve_on_ground(pressed, detail, factor, rule, closed, solution, outcome, error, start, &
+                                     only_near=search == 1)
                 solves = solves + solution%solves
                 if (has_ended(error)) return
                 reached = is_solved(outcome, error)
                 if (reached) then
                     call start_from(solution, closed, next)
-                    reached = is_one_branch(under_share(ground, min(1.0_wp, share + step)), start, next, factor)
+                    reached = is_one_branch(pressed, start, next, factor)
                 end if
                 if (reached .and. share + step >= 1.0_wp) exit
                 if (reached) then

@@ -36,8 +36,8 @@ if TYPE_CHECKING:
     from ..state.step import Step
 
 
-# Schemes whose stretches are kept, to be used again
 MOST_KNOWN = 64
+"""Schemes whose stretches are kept, to be used again."""
 
 
 class Struts:
